@@ -1,0 +1,106 @@
+//! The command line: what is common to all commands, and the list of commands.
+
+use std::num::NonZeroUsize;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use posekit_render::render::RendererChoice;
+
+use crate::command;
+use crate::console::ColorWhen;
+
+/// Skeletal character animation from motion data
+///
+/// Reads BVH motion capture files, shows them moving, says what is in them, turns them into joint positions,
+/// and converts them. Without a command it shows a walking figure: in a window, or, where there is no
+/// display, as a film in this folder. A FILE may be a file, a folder (all the .bvh files in it and below), a pattern such as
+/// 'takes/**/*.bvh', '-' for standard input, or a clip that posekit makes itself: sample:walk,
+/// sample:run, sample:wave, sample:arm.
+#[derive(Debug, Parser)]
+#[command(name = "posekit", version, max_term_width = 100, after_help = EXAMPLES)]
+pub(crate) struct Cli {
+    #[command(flatten)]
+    pub(crate) global: Global,
+    #[command(subcommand)]
+    pub(crate) command: Option<Command>,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  posekit view walk.bvh                   a window in which it moves
+  posekit info walk.bvh                   what is in the file
+  posekit fk walk.bvh                     where every joint goes, as a table
+  posekit fk walk.bvh -o walk.npz         ... as NumPy arrays
+  posekit fk takes/ -o arrays/            ... for a folder, on all cores
+  posekit check walk.bvh                  what is suspicious in it
+  posekit convert walk.bvh w30.bvh --fps 30
+  posekit ik walk.bvh --end LeftHand --offset 0,0.2,0 -o out.bvh
+  posekit render walk.bvh -o walk.mp4     a film of it
+
+Exit codes: 0 done, 1 something could not be done, 2 wrong usage";
+
+/// Options that every command takes.
+#[derive(Clone, Debug, Args)]
+#[command(next_help_heading = "Options of every command")]
+pub(crate) struct Global {
+    /// Number of files worked on at once [default: one per core]
+    #[arg(long, short = 'j', global = true, value_name = "N")]
+    pub(crate) jobs: Option<NonZeroUsize>,
+    /// No progress, notes or warnings; errors are still shown
+    #[arg(long, short, global = true)]
+    pub(crate) quiet: bool,
+    /// Take a file that needs repair as an error
+    #[arg(long, global = true)]
+    pub(crate) strict: bool,
+    /// When output is coloured
+    #[arg(
+        long,
+        global = true,
+        value_name = "WHEN",
+        default_value = "auto",
+        hide_possible_values = true
+    )]
+    pub(crate) color: ColorWhen,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    Info(command::info::InfoArgs),
+    Check(command::check::CheckArgs),
+    Fix(command::fix::FixArgs),
+    Fk(command::fk::FkArgs),
+    Convert(command::convert::ConvertArgs),
+    Ik(Box<command::ik::IkArgs>),
+    IkStudy(Box<command::ik_study::IkStudyArgs>),
+    #[cfg(feature = "window")]
+    View(command::view::ViewArgs),
+    Serve(command::serve::ServeArgs),
+    Render(Box<command::render::RenderArgs>),
+    Keys(command::keys::KeysArgs),
+    Inbetween(command::inbetween::InbetweenArgs),
+    Slerp(command::slerp::SlerpArgs),
+    Sample(command::sample::SampleArgs),
+    Completions(command::completions::CompletionsArgs),
+    Man(command::man::ManArgs),
+}
+
+/// What draws.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum RendererArg {
+    /// The fastest there is
+    Auto,
+    /// The CPU: the same bytes on every machine
+    Cpu,
+    /// A graphics driver, be it a software one
+    Gpu,
+}
+
+impl From<RendererArg> for RendererChoice {
+    fn from(arg: RendererArg) -> Self {
+        match arg {
+            RendererArg::Auto => Self::Fastest,
+            RendererArg::Cpu => Self::Cpu,
+            RendererArg::Gpu => Self::Gpu,
+        }
+    }
+}

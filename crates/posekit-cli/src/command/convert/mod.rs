@@ -1,0 +1,195 @@
+//! `posekit convert`: BVH to BVH.
+
+mod change;
+
+use std::ffi::OsString;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+use posekit::rotation::EulerOrder;
+use posekit_formats::bvh::edit::UpAxis;
+use posekit_formats::bvh::{Bvh, WriteOptions, write_to};
+
+use crate::args::Global;
+use crate::batch::{self, Done};
+use crate::console;
+use crate::failure::Failure;
+use crate::inputs::{self, Input, STDIN, Source};
+use crate::load;
+use crate::output::{Destination, Plan, write_whole};
+use crate::text::counted;
+use change::{Rename, Trim};
+
+/// BVH files to BVH files: another frame rate, part of the frames, another unit, axis or rotation order
+///
+/// What no option touches stays as it was, to the digit. The options are applied in this order:
+/// rename, reorder-like, trim, fps, scale, up, channels, order.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct ConvertArgs {
+    /// Files, folders, patterns, '-' or sample:NAME
+    #[arg(value_name = "IN", required = true)]
+    files: Vec<OsString>,
+    /// The new file; a folder for many inputs, a pattern with {stem} and {dir}, or '-'
+    #[arg(value_name = "OUT")]
+    output: OsString,
+    /// Frames a second; joints turn by slerp between old frames
+    #[arg(long, value_name = "RATE")]
+    fps: Option<f64>,
+    /// Part of the motion, by frame (10..50, without the last; 10..) or by time (0.5s..2s)
+    #[arg(long, value_name = "RANGE")]
+    trim: Option<Trim>,
+    /// Multiply every length, as 0.01 for centimetres to metres
+    #[arg(long, value_name = "FACTOR")]
+    scale: Option<f64>,
+    /// The axis that shall point up
+    #[arg(long, value_name = "AXIS")]
+    up: Option<Up>,
+    /// The axis that points up now [default: seen from how the figure stands]
+    #[arg(long, value_name = "AXIS", requires = "up")]
+    from_up: Option<Up>,
+    /// Rotation order of every joint's channels, as ZXY
+    #[arg(long, value_name = "ORDER")]
+    order: Option<EulerOrder>,
+    /// 3: positions on roots (and on joints that truly move) only; 6: positions and rotations on every joint
+    #[arg(long, value_name = "3|6")]
+    channels: Option<Channels>,
+    /// Give joint A the name B; may be repeated
+    #[arg(long, value_name = "A=B")]
+    rename: Vec<Rename>,
+    /// Put the joints in the order of another file with the same joints
+    #[arg(long, value_name = "OTHER.bvh")]
+    reorder_like: Option<PathBuf>,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  posekit convert walk.bvh walk30.bvh --fps 30
+  posekit convert walk.bvh step.bvh --trim 0.5s..1.7s
+  posekit convert takes/ metres/ --scale 0.01         a folder, its sub-folders mirrored
+  posekit convert walk.bvh blender.bvh --up z --order XYZ
+  posekit convert a.bvh b.bvh --rename Hips=pelvis --rename Spine=spine_01
+  posekit convert push.bvh same.bvh --reorder-like walk.bvh";
+
+/// An axis that may point up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Up {
+    /// Y
+    Y,
+    /// Z
+    Z,
+}
+
+impl Up {
+    fn axis(self) -> UpAxis {
+        match self {
+            Self::Y => UpAxis::Y,
+            Self::Z => UpAxis::Z,
+        }
+    }
+}
+
+/// How many channels a joint has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Channels {
+    /// Rotations
+    #[value(name = "3")]
+    Three,
+    /// Positions and rotations
+    #[value(name = "6")]
+    Six,
+}
+
+/// Runs the command.
+pub(crate) fn run(args: &ConvertArgs, global: &Global) -> Result<(), Failure> {
+    let model = args
+        .reorder_like
+        .as_deref()
+        .map(|path| load_model(path, global))
+        .transpose()?;
+    let inputs = inputs::expand(&args.files);
+    let is_set = inputs.is_set;
+    let plan = Plan::new(&args.output, &inputs, "bvh")?;
+    let mut written_count = 0;
+    let result = batch::run(
+        inputs,
+        global,
+        |index, input| convert(args, model.as_ref(), input, plan.destination(index), global),
+        |_, announcement: String| {
+            written_count += 1;
+            if !is_set && !global.quiet && args.output != STDIN {
+                console::note(&announcement);
+            }
+            Ok(())
+        },
+    );
+    if is_set && written_count > 0 && !global.quiet {
+        let files = counted(written_count, "file");
+        console::note(&format!(
+            "wrote {files} to {}",
+            Path::new(&args.output).display()
+        ));
+    }
+    result
+}
+
+fn load_model(path: &Path, global: &Global) -> Result<Bvh, Failure> {
+    if fs::metadata(path).is_ok_and(|meta| meta.is_dir()) {
+        return Err(Failure::new(format!(
+            "{}: is a folder, not a file",
+            path.display()
+        )));
+    }
+    let source = Source::File(path.to_owned());
+    Ok(load::load(
+        &Input {
+            source,
+            relative: path.to_owned(),
+        },
+        global,
+    )?
+    .bvh)
+}
+
+fn convert(
+    args: &ConvertArgs,
+    model: Option<&Bvh>,
+    input: &Input,
+    destination: &Destination,
+    global: &Global,
+) -> Result<Done<String>, Failure> {
+    let name = input.name();
+    let loaded = load::load(input, global)?;
+    let mut warnings = loaded.repairs(input);
+    let mut bvh = loaded.bvh;
+    let remarks = change::apply(args, model, &mut bvh).map_err(|failure| failure.in_file(&name))?;
+    warnings.extend(
+        remarks
+            .into_iter()
+            .map(|remark| format!("{name}: {remark}")),
+    );
+    let announcement = write(&bvh, destination)?;
+    Ok(Done {
+        value: announcement,
+        warnings,
+    })
+}
+
+fn write(bvh: &Bvh, destination: &Destination) -> Result<String, Failure> {
+    let options = WriteOptions::default();
+    let frames = counted(bvh.frame_count(), "frame");
+    let joints = counted(bvh.joints.len(), "joint");
+    match destination {
+        Destination::File(path) => {
+            write_whole(path, |file| write_to(bvh, options, file))?;
+            Ok(format!("wrote {}: {frames} of {joints}", path.display()))
+        }
+        Destination::Stdout => {
+            let mut out = console::binary_stdout();
+            write_to(bvh, options, &mut out)?;
+            std::io::Write::flush(&mut out)?;
+            Ok(String::new())
+        }
+    }
+}

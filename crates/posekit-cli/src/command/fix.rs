@@ -1,0 +1,157 @@
+//! `posekit fix`: repairs that need no guess.
+
+use std::ffi::OsString;
+use std::io::Write;
+
+use clap::Args;
+use posekit_formats::bvh::{self, Change, FixConfig, NameRepair, WriteOptions, write_to};
+use serde_json::{Value, json};
+
+use crate::args::Global;
+use crate::batch::{self, Done};
+use crate::console::{self, DIM, HEADING, styled};
+use crate::failure::{Failure, one_line};
+use crate::inputs;
+use crate::load;
+use crate::output::{Destination, Plan, write_whole};
+use crate::text::counted;
+
+/// Repair what needs no guess, say each change, and write a new file
+///
+/// Euler flips are unwrapped: other angles of the very same rotations, so that curves are continuous.
+/// What the reader had to put right (a frame count, glued numbers, a damaged row) is written right, and
+/// line ends are LF. Values that no repair touches stay the same. The input is never written to.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct FixArgs {
+    /// Files, folders, patterns, '-' or sample:NAME
+    #[arg(value_name = "FILE", required = true)]
+    files: Vec<OsString>,
+    /// The new file; a folder for many inputs, a pattern with {stem} and {dir}, or '-'
+    #[arg(long, short, value_name = "OUT", required_unless_present = "dry_run")]
+    output: Option<OsString>,
+    /// Write blanks in joint names as underscores
+    #[arg(long)]
+    names: bool,
+    /// Say what would be changed and write nothing
+    #[arg(long, conflicts_with = "output")]
+    dry_run: bool,
+    /// Say the changes on standard output, as one JSON object a file, each on a line of its own
+    #[arg(long)]
+    json: bool,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  posekit fix walk.bvh -o fixed.bvh
+  posekit fix --dry-run takes/
+  posekit fix --names takes/ -o fixed/
+  posekit fix --json --dry-run takes/ | jq -r 'select(.changes != []) | .file'";
+
+/// Runs the command.
+pub(crate) fn run(args: &FixArgs, global: &Global) -> Result<(), Failure> {
+    let inputs = inputs::expand(&args.files);
+    let output = args.output.as_ref();
+    let plan = output
+        .map(|output| Plan::new(output, &inputs, "bvh"))
+        .transpose()?;
+    let writes_stdout = output.is_some_and(|output| output == "-");
+    if args.json && writes_stdout {
+        return Err(Failure::usage(
+            "the repaired file and --json cannot both go to standard output",
+        ));
+    }
+    let names = if args.names {
+        NameRepair::BlanksToUnderscores
+    } else {
+        NameRepair::Keep
+    };
+    let config = FixConfig {
+        names,
+        ..FixConfig::default()
+    };
+    batch::run(
+        inputs,
+        global,
+        |index, input| {
+            let (import, bytes) = load::load_import(input, global)?;
+            let fixed = bvh::fix(&bytes, &import, &config);
+            let destination = plan.as_ref().map(|plan| plan.destination(index));
+            let mut written = None;
+            match destination {
+                Some(Destination::File(path)) => {
+                    let options = WriteOptions::default();
+                    write_whole(path, |file| write_to(&fixed.document, options, file))?;
+                    written = Some(path.display().to_string());
+                }
+                Some(Destination::Stdout) => {
+                    let mut out = console::binary_stdout();
+                    write_to(&fixed.document, WriteOptions::default(), &mut out)?;
+                    out.flush()?;
+                }
+                None => {}
+            }
+            let value = if args.json {
+                json_line(&input.name(), &fixed.changes, written.as_deref())
+            } else {
+                readable(&input.name(), &fixed.changes, written.as_deref())
+            };
+            Ok(Done {
+                value,
+                warnings: Vec::new(),
+            })
+        },
+        |_, text: String| {
+            if args.json {
+                let mut out = console::stdout();
+                out.write_all(text.as_bytes())?;
+                out.flush()?;
+            } else if !global.quiet {
+                // The report is about the output, so it does not stand in it.
+                let _ = anstream::stderr().lock().write_all(text.as_bytes());
+            }
+            Ok(())
+        },
+    )
+}
+
+fn json_line(name: &str, changes: &[Change], written: Option<&str>) -> String {
+    let changes: Vec<Value> = changes
+        .iter()
+        .map(|change| {
+            json!({
+                "code": change.code.code(),
+                "joint": change.joint,
+                "frames": change.frames.map(|frames| json!({
+                    "first": frames.first,
+                    "last": frames.last,
+                })),
+                "line": change.location.map(|location| location.line),
+                "column": change.location.map(|location| location.column),
+                "count": change.count,
+                "message": change.message,
+            })
+        })
+        .collect();
+    let line = json!({ "file": name, "written": written, "changes": changes });
+    format!("{line}\n")
+}
+
+fn readable(name: &str, changes: &[Change], written: Option<&str>) -> String {
+    let written = written.map_or(String::new(), |path| format!(", written to {path}"));
+    let count = match changes.len() {
+        0 => "nothing to repair".to_owned(),
+        count => counted(count, "change"),
+    };
+    let mut text = format!("{}: {count}{written}\n", styled(HEADING, &one_line(name)));
+    for change in changes {
+        let place = match (change.location, change.frames) {
+            (Some(location), _) => format!("{location}: "),
+            (None, Some(frames)) => format!("{frames}: "),
+            (None, None) => String::new(),
+        };
+        let code = styled(DIM, &format!("[{}]", change.code));
+        text += &format!("  {place}{} {code}\n", one_line(&change.message));
+    }
+    text
+}

@@ -1,0 +1,143 @@
+//! The figure that is worked on: its document, its motion, and what is written back.
+
+use std::sync::Arc;
+
+use glam::DQuat;
+use posekit::ik::MovedJoint;
+use posekit::motion::{Motion, PositionPolicy};
+use posekit::pose::LocalPose;
+use posekit::rotation::angle_between;
+use posekit::skeleton::Skeleton;
+use posekit_formats::bvh::edit::{self, EditError};
+use posekit_formats::bvh::{Bvh, BvhMotion};
+
+use super::IkArgs;
+use crate::failure::Failure;
+use crate::load::Loaded;
+
+/// A rotation that differs by no more than this is the one that was there: single precision, in which
+/// poses are kept, cannot tell them apart, and so the file's digits stay.
+const SAME_RAD: f64 = 3e-7;
+
+/// As [`SAME_RAD`] for places, as a share of their distance from the origin.
+const SAME_SHARE: f64 = 2e-7;
+
+/// The figure.
+#[derive(Debug)]
+pub(super) struct Figure {
+    /// The document that is changed.
+    pub(super) bvh: Bvh,
+    /// As it was, to count what changed.
+    before: Vec<f64>,
+    /// Its joints, in the document's order.
+    pub(super) skeleton: Arc<Skeleton>,
+    /// Its motion as it was.
+    pub(super) motion: Motion,
+    /// How position channels are read.
+    pub(super) policy: PositionPolicy,
+}
+
+impl Figure {
+    /// The figure of a file.
+    pub(super) fn new(args: &IkArgs, loaded: Loaded) -> Result<Self, Failure> {
+        let policy = args.root_offset.policy();
+        let mut loaded = loaded;
+        if args.rest {
+            put_at_rest(&mut loaded.bvh, policy);
+        }
+        let motion = loaded.motion(policy)?;
+        if motion.frame_count() == 0 {
+            return Err(Failure::new("has no frames").try_next("--rest works on its rest pose"));
+        }
+        let bvh = loaded.bvh;
+        Ok(Self {
+            before: values(&bvh).to_vec(),
+            skeleton: Arc::clone(motion.skeleton()),
+            bvh,
+            motion,
+            policy,
+        })
+    }
+
+    /// Seconds from one frame to the next.
+    pub(super) fn frame_time_secs(&self) -> f64 {
+        self.motion.frame_time_secs()
+    }
+
+    /// Writes joints that a solver moved in a frame into the document; those that came out as they were
+    /// keep their digits. Angles are those closest to `near_frame`'s.
+    pub(super) fn write(
+        &mut self,
+        frame: usize,
+        near_frame: usize,
+        was: &LocalPose,
+        moved: &[MovedJoint],
+    ) -> Result<(), Failure> {
+        for joint in moved {
+            let index = joint.joint.index();
+            let rotation = was.rotations[index].as_dquat().normalize();
+            if angle_between(rotation, joint.rotation) > SAME_RAD {
+                self.turn(index, frame, joint.rotation, near_frame)?;
+            }
+            let translation = was.translations[index].as_dvec3();
+            let moved_by = translation.distance(joint.translation);
+            if moved_by > SAME_SHARE * (1.0 + translation.length()) {
+                edit::set_translation(&mut self.bvh, index, frame, joint.translation, self.policy)
+                    .map_err(refused)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn turn(
+        &mut self,
+        joint: usize,
+        frame: usize,
+        rotation: DQuat,
+        near_frame: usize,
+    ) -> Result<(), Failure> {
+        edit::set_rotation(&mut self.bvh, joint, frame, rotation, near_frame).map_err(refused)?;
+        Ok(())
+    }
+
+    /// How many values differ from what the file had.
+    pub(super) fn changed_count(&self) -> usize {
+        let pairs = self.before.iter().zip(values(&self.bvh));
+        pairs.filter(|(a, b)| a != b).count()
+    }
+}
+
+fn values(bvh: &Bvh) -> &[f64] {
+    bvh.motion.as_ref().map_or(&[], |motion| &motion.values)
+}
+
+fn refused(error: EditError) -> Failure {
+    let text = error.to_string();
+    match error {
+        EditError::CannotMove { .. } => Failure::new(text)
+            .try_next("posekit convert --channels 6 gives every joint all channels"),
+        _ => Failure::new(text),
+    }
+}
+
+/// Makes the motion one frame of the rest pose.
+fn put_at_rest(bvh: &mut Bvh, policy: PositionPolicy) {
+    use posekit::motion::Channel;
+    let mut values = Vec::new();
+    for joint in &bvh.joints {
+        let is_added = policy == PositionPolicy::AddToRootOffset && joint.parent.is_none();
+        values.extend(joint.channels.iter().map(|channel| match channel {
+            Channel::Position(axis) if !is_added => joint.offset[axis.index()],
+            Channel::Position(_) | Channel::Rotation(_) => 0.0,
+        }));
+    }
+    let frame_time_secs = bvh
+        .motion
+        .as_ref()
+        .map_or(1.0 / 30.0, |motion| motion.frame_time_secs);
+    bvh.motion = Some(BvhMotion {
+        frame_time_secs,
+        frame_count: 1,
+        values,
+    });
+}

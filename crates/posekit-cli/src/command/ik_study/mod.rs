@@ -1,0 +1,100 @@
+//! `posekit ik-study`: solvers of inverse kinematics compared on a figure, as a report.
+//!
+//! Options and file become a [`setup::Study`]; [`experiment`] and [`moving`] run it; [`report`] says in a
+//! [`document::Document`] what came out; [`pictures`] takes the pictures that it refers to; [`html`] and
+//! [`markdown`] write it. All but times is the same for the same options, byte for byte.
+
+mod args;
+mod chart;
+mod document;
+mod experiment;
+mod html;
+mod linkage;
+mod markdown;
+mod method;
+mod moving;
+mod pictures;
+mod report;
+mod setup;
+mod statistics;
+mod table_files;
+mod targets;
+
+use std::io::Write;
+use std::path::Path;
+
+use crate::args::Global;
+use crate::console;
+use crate::failure::Failure;
+use crate::jobs;
+use crate::output::write_whole;
+use crate::text::grouped;
+pub(crate) use args::IkStudyArgs;
+
+/// Runs the command.
+pub(crate) fn run(args: &IkStudyArgs, global: &Global) -> Result<(), Failure> {
+    let study = setup::study(args, global)?;
+    let beside = |extension: &str| args.output.with_extension(extension);
+    let is_html = args
+        .output
+        .extension()
+        .is_some_and(|extension| extension == "html" || extension == "htm");
+    if !is_html {
+        return Err(Failure::usage("the report's name ends in .html")
+            .try_next("its .csv, .md and .bvh go beside it"));
+    }
+    refuse_input(args, &beside("bvh"))?;
+    let workers = global.jobs.unwrap_or_else(jobs::default_workers);
+    let results = experiment::run(&study, workers, global.quiet)?;
+    let following = moving::run(&study);
+    let numbers = report::Numbers {
+        study: &study,
+        results: &results,
+        following: &following,
+    };
+    let document = report::compose(numbers, &command_line());
+    let pictures = pictures::take(&study, &document.shots, workers, global.quiet)?;
+    let write = |path: &Path, bytes: &[u8]| write_whole(path, |file| file.write_all(bytes));
+    write(
+        &beside("csv"),
+        table_files::csv(&study, &results).as_bytes(),
+    )?;
+    write(&beside("bvh"), &table_files::poses(&study, &results))?;
+    write(&beside("md"), markdown::write(&document).as_bytes())?;
+    write(&args.output, html::write(&document, &pictures).as_bytes())?;
+    if !global.quiet {
+        let runs = grouped(results.all().len());
+        console::note(&format!(
+            "wrote {}: {runs} runs of solvers; with .csv, .md and .bvh beside it",
+            args.output.display()
+        ));
+    }
+    Ok(())
+}
+
+/// The poses must not be written over the motion that they are made from.
+fn refuse_input(args: &IkStudyArgs, poses: &Path) -> Result<(), Failure> {
+    let same = |path: &Path| path.canonicalize().ok();
+    if same(poses).is_some_and(|poses| same(Path::new(&args.file)) == Some(poses)) {
+        return Err(
+            Failure::usage(format!("{} would be overwritten", poses.display()))
+                .try_next("give the report another name with -o"),
+        );
+    }
+    Ok(())
+}
+
+/// What was typed.
+fn command_line() -> String {
+    let words = std::env::args_os().skip(1).map(|word| {
+        let word = word.to_string_lossy().into_owned();
+        let is_plain = |c: char| c.is_alphanumeric() || "-_./:,=+\\".contains(c);
+        if !word.is_empty() && word.chars().all(is_plain) {
+            word
+        } else {
+            format!("'{}'", word.replace('\'', "'\\''"))
+        }
+    });
+    let words: Vec<String> = std::iter::once("posekit".to_owned()).chain(words).collect();
+    words.join(" ")
+}

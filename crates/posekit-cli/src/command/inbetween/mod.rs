@@ -1,0 +1,249 @@
+//! `posekit inbetween`: keeps some frames of a motion, fills in the others, and says how well.
+
+mod chart;
+mod compare;
+mod html;
+mod report;
+
+use std::ffi::OsString;
+use std::fmt;
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use clap::Args;
+use posekit::inbetween::{FillPlan, Method, fill};
+use posekit::motion::Motion;
+use posekit::rotation::EulerOrder;
+use posekit_formats::bvh::{Bvh, WriteOptions, write_to};
+
+use crate::args::Global;
+use crate::console;
+use crate::failure::Failure;
+use crate::inputs::{self, Input, Inputs};
+use crate::load;
+use crate::output::{Destination, Plan, write_whole};
+use crate::root_offset::RootOffset;
+use crate::select::FrameSelection;
+use crate::text::counted;
+use compare::Comparison;
+
+/// Keep some frames of a motion, fill in the others by several methods, and compare them with the truth
+///
+/// Without -o and --report prints how far each method is from the motion over the frames that it filled in.
+/// With --report also writes NAME.html, NAME.md and NAME.csv: the same joint by joint, with curves. With
+/// -o writes the motion that the first method fills in.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct InbetweenArgs {
+    /// The motion: a file, '-' or sample:NAME
+    #[arg(value_name = "FILE")]
+    file: OsString,
+    /// Keep every n-th frame, and the last one
+    #[arg(
+        long,
+        value_name = "N",
+        required_unless_present = "at",
+        conflicts_with = "at"
+    )]
+    keep: Option<usize>,
+    /// Keep these frames, by number from 0: 0,12,30 or 0..100:8
+    #[arg(long, value_name = "FRAMES")]
+    at: Option<FrameSelection>,
+    /// Put the kept frames so many frames apart: a new timing, which has no truth to compare with
+    #[arg(long, value_name = "N", conflicts_with = "report")]
+    frames: Option<usize>,
+    /// slerp, nlerp, lerp, matrix, rotvec, squad, euler (each joint in the file's own order), euler:ORDER
+    #[arg(
+        long,
+        value_name = "METHODS",
+        value_delimiter = ',',
+        default_value = "slerp,nlerp,matrix,rotvec,euler,squad"
+    )]
+    method: Vec<MethodArg>,
+    /// Write the comparison to NAME.html, NAME.md and NAME.csv [default NAME: the file's, -inbetween]
+    #[arg(long, value_name = "NAME", num_args = 0..=1, require_equals = true, default_missing_value = "")]
+    report: Option<PathBuf>,
+    /// Write the motion that the first method fills in
+    #[arg(long, short, value_name = "OUT")]
+    output: Option<OsString>,
+    /// Whether a root's position channels replace its OFFSET or are added to it
+    #[arg(long, value_name = "HOW", default_value = "replace")]
+    root_offset: RootOffset,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  posekit inbetween walk.bvh --keep 10
+  posekit inbetween walk.bvh --keep 10 --method slerp,euler,squad --report
+  posekit inbetween walk.bvh --keep 10 --report=out/walk10
+  posekit inbetween walk.bvh --keep 10 --method squad -o filled.bvh
+  posekit inbetween walk.bvh --at 0,30,60,90 --frames 60 --method squad -o slow.bvh";
+
+/// A method, or the file's own Euler orders.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum MethodArg {
+    /// The same for all joints.
+    Same(Method),
+    /// Euler angles, each joint's in the order of its channels.
+    FileEuler,
+}
+
+impl FromStr for MethodArg {
+    type Err = String;
+
+    fn from_str(word: &str) -> Result<Self, String> {
+        if word == "euler" {
+            return Ok(Self::FileEuler);
+        }
+        word.parse().map(Self::Same).map_err(|error| match error {
+            posekit::inbetween::MethodError::Unknown { .. } => {
+                format!("{error}, or euler for the file's own orders")
+            }
+            other => other.to_string(),
+        })
+    }
+}
+
+impl fmt::Display for MethodArg {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Same(method) => method.fmt(f),
+            Self::FileEuler => f.write_str("euler"),
+        }
+    }
+}
+
+/// Runs the command.
+pub(crate) fn run(args: &InbetweenArgs, global: &Global) -> Result<(), Failure> {
+    let inputs = inputs::expand(std::slice::from_ref(&args.file));
+    if let Some(failure) = inputs.failures.into_iter().next() {
+        return Err(failure);
+    }
+    let [input] = inputs.list.as_slice() else {
+        return Err(Failure::usage("one motion at a time is filled in"));
+    };
+    let name = input.name();
+    let in_file = |failure: Failure| failure.in_file(&name);
+    let loaded = load::load(input, global)?;
+    if !global.quiet {
+        loaded
+            .repairs(input)
+            .iter()
+            .for_each(|repair| console::warning(repair));
+    }
+    let orders = channel_orders(&loaded.bvh);
+    let motion = loaded.motion(args.root_offset.policy()).map_err(in_file)?;
+    let plan = plan(args, &motion).map_err(in_file)?;
+    let filled = |method: MethodArg| {
+        fill(&motion, &plan, |joint| match method {
+            MethodArg::Same(method) => method,
+            MethodArg::FileEuler => Method::Euler(orders[joint.index()]),
+        })
+    };
+    if let Some(output) = &args.output {
+        let method = args.method[0];
+        write_motion(
+            output,
+            input,
+            &filled(method),
+            method,
+            args.method.len(),
+            global,
+        )?;
+        if args.report.is_none() {
+            return Ok(());
+        }
+    }
+    if args.frames.is_some() {
+        return Err(Failure::usage("--frames makes a motion: say where with -o"));
+    }
+    let comparison = Comparison::new(&motion, &plan, &args.method, name, filled);
+    comparison.print()?;
+    match &args.report {
+        Some(stem) => report::write(&comparison, &report_stem(stem, input), global),
+        None => Ok(()),
+    }
+}
+
+fn plan(args: &InbetweenArgs, motion: &Motion) -> Result<FillPlan, Failure> {
+    let frames = motion.frame_count();
+    if frames == 0 {
+        return Err(Failure::new("has no frames"));
+    }
+    let plan = match (&args.at, args.keep) {
+        (Some(at), _) => FillPlan::at(at.frames(frames)?, frames),
+        (None, Some(n)) => FillPlan::every(n, frames),
+        (None, None) => return Err(Failure::usage("say which frames are kept: --keep or --at")),
+    };
+    let usage = |error: posekit::inbetween::FillConfigError| Failure::usage(error.to_string());
+    let plan = plan.map_err(usage)?;
+    match args.frames {
+        Some(spacing) => plan.spaced(spacing).map_err(usage),
+        None => Ok(plan),
+    }
+}
+
+/// The order of each joint's rotation channels; of a joint with four of them or more, the usual one.
+fn channel_orders(bvh: &Bvh) -> Vec<EulerOrder> {
+    let order = |joint: &posekit_formats::bvh::BvhJoint| {
+        let axes: Vec<_> = joint
+            .channels
+            .iter()
+            .filter_map(|channel| match channel {
+                posekit::motion::Channel::Rotation(axis) => Some(*axis),
+                posekit::motion::Channel::Position(_) => None,
+            })
+            .collect();
+        EulerOrder::new(&axes).unwrap_or(EulerOrder::ZXY)
+    };
+    bvh.joints.iter().map(order).collect()
+}
+
+fn write_motion(
+    output: &OsString,
+    input: &Input,
+    motion: &Motion,
+    method: MethodArg,
+    method_count: usize,
+    global: &Global,
+) -> Result<(), Failure> {
+    let inputs = Inputs {
+        list: vec![input.clone()],
+        ..Inputs::default()
+    };
+    let bvh = Bvh::from_motion(motion, EulerOrder::ZXY);
+    let options = WriteOptions::default();
+    match Plan::new(output, &inputs, "bvh")?.destination(0) {
+        Destination::Stdout => {
+            let mut out = console::binary_stdout();
+            write_to(&bvh, options, &mut out)?;
+            Ok(std::io::Write::flush(&mut out)?)
+        }
+        Destination::File(path) => {
+            write_whole(path, |file| write_to(&bvh, options, file))?;
+            if !global.quiet {
+                let frames = counted(bvh.frame_count(), "frame");
+                let which = if method_count > 1 {
+                    format!(" filled in by {method}, the first method")
+                } else {
+                    format!(" filled in by {method}")
+                };
+                console::note(&format!("wrote {}: {frames}{which}", path.display()));
+            }
+            Ok(())
+        }
+    }
+}
+
+/// The report's name without its extension.
+fn report_stem(asked: &std::path::Path, input: &Input) -> PathBuf {
+    if !asked.as_os_str().is_empty() {
+        return asked.to_owned();
+    }
+    let stem = input
+        .relative
+        .file_stem()
+        .unwrap_or_default()
+        .to_string_lossy();
+    PathBuf::from(format!("{stem}-inbetween"))
+}

@@ -1,0 +1,146 @@
+//! The facts about a file, before anybody words them.
+
+use posekit::figure::{LengthUnit, RestPose, guess_unit};
+use posekit::motion::{Channel, Motion, PositionPolicy};
+use posekit::skeleton::{JointId, Skeleton};
+use posekit_formats::bvh::Bvh;
+use posekit_formats::bvh::edit::{UpAxis, guess_up_axis};
+
+use crate::failure::Failure;
+use crate::load::Loaded;
+
+/// A list of channels and the joints that have it.
+#[derive(Debug)]
+pub(super) struct ChannelGroup {
+    /// The channels in the file's order.
+    pub(super) channels: Vec<Channel>,
+    /// The joints' indices.
+    pub(super) joints: Vec<usize>,
+}
+
+/// What is known of a file.
+#[derive(Debug)]
+pub(super) struct Facts {
+    /// All joints, End Sites included.
+    pub(super) joint_count: usize,
+    /// The End Sites among them.
+    pub(super) end_site_count: usize,
+    /// Levels of the hierarchy.
+    pub(super) level_count: usize,
+    /// Names of the roots.
+    pub(super) roots: Vec<String>,
+    /// Whether there is a MOTION section.
+    pub(super) has_motion: bool,
+    /// Frames.
+    pub(super) frame_count: usize,
+    /// What the file says.
+    pub(super) frame_time_secs: f64,
+    /// Values in a frame.
+    pub(super) channel_count: usize,
+    /// The channel lists that occur, by their first joint.
+    pub(super) channel_groups: Vec<ChannelGroup>,
+    /// The rest pose's height; see [`Skeleton::height`].
+    pub(super) rest_height: f64,
+    /// The middle one of the vertical extents over the frames.
+    pub(super) motion_height: Option<f64>,
+    /// The unit in which that height is a person's.
+    pub(super) unit: Option<LengthUnit>,
+    /// The axis along which the figure stands.
+    pub(super) up: Option<UpAxis>,
+    /// What the rest pose looks like.
+    pub(super) rest_pose: RestPose,
+    /// Left and right joints that mirror each other, by unique name.
+    pub(super) pairs: Vec<(String, String)>,
+    /// The skeleton, for the tree.
+    pub(super) skeleton: Skeleton,
+}
+
+impl Facts {
+    /// Finds them.
+    pub(super) fn of(loaded: &Loaded) -> Result<Self, Failure> {
+        let bvh = &loaded.bvh;
+        let motion = loaded.motion(PositionPolicy::Replace)?;
+        let skeleton = Skeleton::clone(motion.skeleton());
+        let up = guess_up_axis(bvh);
+        let motion_height = middle_height(&motion, up.unwrap_or(UpAxis::Y));
+        let rest_height = f64::from(skeleton.height());
+        let name = |joint: JointId| skeleton.unique_name(joint).to_owned();
+        let pairs = skeleton.symmetric_pairs();
+        Ok(Self {
+            joint_count: skeleton.joint_count(),
+            end_site_count: skeleton
+                .joints()
+                .filter(|&joint| skeleton.is_end_site(joint))
+                .count(),
+            level_count: level_count(&skeleton),
+            roots: skeleton.roots().map(name).collect(),
+            has_motion: bvh.motion.is_some(),
+            frame_count: bvh.frame_count(),
+            frame_time_secs: bvh
+                .motion
+                .as_ref()
+                .map_or(0.0, |motion| motion.frame_time_secs),
+            channel_count: bvh.channel_count(),
+            channel_groups: channel_groups(bvh),
+            rest_height,
+            motion_height,
+            unit: guess_unit(motion_height.unwrap_or(rest_height)),
+            up,
+            rest_pose: RestPose::of(&skeleton),
+            pairs: pairs
+                .iter()
+                .map(|pair| (name(pair.left), name(pair.right)))
+                .collect(),
+            skeleton,
+        })
+    }
+
+    /// Frames a second, where the file's frame time gives them.
+    pub(super) fn fps(&self) -> Option<f64> {
+        (self.frame_time_secs > 0.0).then(|| 1.0 / self.frame_time_secs)
+    }
+
+    /// From the first frame to the last, in seconds.
+    pub(super) fn duration_secs(&self) -> f64 {
+        let intervals = u32::try_from(self.frame_count.saturating_sub(1)).unwrap_or(u32::MAX);
+        f64::from(intervals) * self.frame_time_secs.max(0.0)
+    }
+}
+
+fn level_count(skeleton: &Skeleton) -> usize {
+    let mut levels: Vec<usize> = Vec::with_capacity(skeleton.joint_count());
+    for parent in skeleton.parents() {
+        levels.push(parent.map_or(1, |parent| levels[parent.index()] + 1));
+    }
+    levels.into_iter().max().unwrap_or(0)
+}
+
+fn channel_groups(bvh: &Bvh) -> Vec<ChannelGroup> {
+    let mut groups: Vec<ChannelGroup> = Vec::new();
+    for (index, joint) in bvh
+        .joints
+        .iter()
+        .enumerate()
+        .filter(|(_, joint)| !joint.is_end_site)
+    {
+        match groups
+            .iter_mut()
+            .find(|group| group.channels == joint.channels)
+        {
+            Some(group) => group.joints.push(index),
+            None => groups.push(ChannelGroup {
+                channels: joint.channels.clone(),
+                joints: vec![index],
+            }),
+        }
+    }
+    groups
+}
+
+fn middle_height(motion: &Motion, up: UpAxis) -> Option<f64> {
+    let extent = posekit::figure::body_extent(motion)?;
+    Some(f64::from(match up {
+        UpAxis::Y => extent.y,
+        UpAxis::Z => extent.z,
+    }))
+}

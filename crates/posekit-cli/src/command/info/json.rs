@@ -1,0 +1,73 @@
+//! The facts, for programs.
+
+use posekit_formats::bvh::edit::UpAxis;
+use posekit_formats::report::{Severity, Warning};
+use serde_json::{Value, json};
+
+use super::facts::Facts;
+use super::readable;
+use crate::load::Loaded;
+
+/// One JSON object on one line.
+pub(super) fn object(name: &str, facts: &Facts, loaded: &Loaded) -> String {
+    let skeleton = &facts.skeleton;
+    let joints: Vec<Value> = skeleton
+        .joints()
+        .map(|joint| {
+            let bvh_joint = &loaded.bvh.joints[joint.index()];
+            let channels: Vec<&str> = bvh_joint.channels.iter().map(|c| c.name()).collect();
+            json!({
+                "name": skeleton.unique_name(joint),
+                "parent": skeleton.parent(joint).map(|parent| parent.index()),
+                "offset": bvh_joint.offset,
+                "channels": channels,
+                "end_site": bvh_joint.is_end_site,
+            })
+        })
+        .collect();
+    let notices: Vec<Value> = loaded.notices.iter().map(notice_object).collect();
+    let pairs: Vec<Value> = facts
+        .pairs
+        .iter()
+        .map(|(left, right)| json!({"left": left, "right": right}))
+        .collect();
+    let object = json!({
+        "file": name,
+        "joint_count": facts.joint_count,
+        "end_site_count": facts.end_site_count,
+        "has_motion": facts.has_motion,
+        "frame_count": facts.frame_count,
+        "frame_time": facts.frame_time_secs,
+        "fps": facts.fps(),
+        "duration": facts.duration_secs(),
+        "channel_count": facts.channel_count,
+        "height_at_rest": facts.rest_height,
+        "height_in_motion": facts.motion_height,
+        "unit": facts.unit.map(|unit| unit.name()),
+        "metres_per_unit": facts.unit.map(|unit| unit.metres()),
+        "up": facts.up.map(|up| match up {
+            UpAxis::Y => "y",
+            UpAxis::Z => "z",
+        }),
+        "rest_pose": readable::rest_pose(&facts.rest_pose),
+        "pairs": pairs,
+        "joints": joints,
+        "notices": notices,
+    });
+    format!("{object}\n")
+}
+
+/// What the reader noticed.
+pub(super) fn notice_object(notice: &Warning) -> Value {
+    json!({
+        "code": notice.code.code(),
+        "severity": match notice.code.severity() {
+            Severity::Note => "note",
+            Severity::Warning => "warning",
+        },
+        "line": notice.line,
+        "column": notice.column,
+        "message": notice.message,
+        "count": notice.count,
+    })
+}

@@ -1,0 +1,230 @@
+//! The facts, for people.
+
+use posekit::figure::{ArmPosture, RestPose, RestPoseKind, STATURE_RANGE_METRES};
+use posekit::motion::Channel;
+use posekit::rotation::Axis;
+use posekit_formats::bvh::edit::UpAxis;
+use posekit_formats::report::Warning;
+
+use super::facts::Facts;
+use super::tree;
+use crate::console::{DIM, HEADING, styled};
+use crate::failure::one_line;
+use crate::load::{Loaded, is_repair};
+use crate::text::{counted, decimals_for, duration, fixed, trimmed};
+
+/// How many pairs are named before the rest are counted.
+const PAIRS_NAMED: usize = 4;
+/// Names of joints beyond this many are counted.
+const JOINTS_NAMED: usize = 4;
+
+/// Everything about a file, as lines with a label each.
+pub(super) fn block(name: &str, facts: &Facts, loaded: &Loaded, with_tree: bool) -> String {
+    let mut text = format!("{}\n", styled(HEADING, &one_line(name)));
+    line(&mut text, "joints", &joints(facts));
+    line(&mut text, "frames", &frames(facts));
+    for (index, group) in channels(facts, loaded).into_iter().enumerate() {
+        line(&mut text, if index == 0 { "channels" } else { "" }, &group);
+    }
+    line(&mut text, "height", &height(facts));
+    line(&mut text, "unit", &unit(facts));
+    line(&mut text, "up", up(facts));
+    line(&mut text, "rest pose", &rest_pose(&facts.rest_pose));
+    line(&mut text, "left/right", &pairs(facts));
+    for (index, notice) in loaded.notices.iter().enumerate() {
+        line(
+            &mut text,
+            if index == 0 { "noticed" } else { "" },
+            &notice_text(notice),
+        );
+    }
+    if with_tree {
+        text.push('\n');
+        text.push_str(&tree::draw(&facts.skeleton, loaded));
+    }
+    text
+}
+
+/// Adds a line with a label.
+pub(super) fn line(text: &mut String, label: &str, value: &str) {
+    text.push_str(&styled(DIM, &format!("  {label:<12}")));
+    text.push_str(value);
+    text.push('\n');
+}
+
+fn joints(facts: &Facts) -> String {
+    let ends = counted(facts.end_site_count, "end site");
+    let levels = counted(facts.level_count, "level");
+    let roots: Vec<String> = facts
+        .roots
+        .iter()
+        .take(JOINTS_NAMED)
+        .map(|r| one_line(r))
+        .collect();
+    let more = if facts.roots.len() > JOINTS_NAMED {
+        ", ..."
+    } else {
+        ""
+    };
+    let noun = if facts.roots.len() == 1 {
+        "root"
+    } else {
+        "roots"
+    };
+    format!(
+        "{} with {ends}, {levels}, {noun} {}{more}",
+        facts.joint_count,
+        roots.join(", ")
+    )
+}
+
+fn frames(facts: &Facts) -> String {
+    if !facts.has_motion {
+        return "none: the file is a skeleton without motion".to_owned();
+    }
+    let count = crate::text::grouped(facts.frame_count);
+    match facts.fps() {
+        Some(fps) => {
+            let length = duration(facts.duration_secs());
+            format!("{count} at {} fps, {length} long", trimmed(fps, 2))
+        }
+        None => format!("{count} with a frame time of {} s", facts.frame_time_secs),
+    }
+}
+
+fn channels(facts: &Facts, loaded: &Loaded) -> Vec<String> {
+    let mut lines = vec![format!("{} a frame", facts.channel_count)];
+    for group in &facts.channel_groups {
+        let mut names: Vec<String> = group
+            .joints
+            .iter()
+            .take(JOINTS_NAMED)
+            .map(|&joint| one_line(&loaded.bvh.joints[joint].name()))
+            .collect();
+        if group.joints.len() > JOINTS_NAMED {
+            names.truncate(2);
+            names.push("...".to_owned());
+        }
+        let joints = counted(group.joints.len(), "joint");
+        let channels = channel_text(&group.channels);
+        let channels = if channels.is_empty() {
+            "none".to_owned()
+        } else {
+            channels
+        };
+        lines.push(format!("{channels}: {joints} ({})", names.join(", ")));
+    }
+    lines
+}
+
+/// `position XYZ, rotation ZXY`: runs of one kind together.
+pub(super) fn channel_text(channels: &[Channel]) -> String {
+    let mut runs: Vec<(&str, String)> = Vec::new();
+    for channel in channels {
+        let (kind, axis) = match channel {
+            Channel::Position(axis) => ("position", axis),
+            Channel::Rotation(axis) => ("rotation", axis),
+        };
+        match runs.last_mut().filter(|(last, _)| *last == kind) {
+            Some((_, axes)) => axes.push(axis.letter()),
+            None => runs.push((kind, axis.letter().to_string())),
+        }
+    }
+    let runs: Vec<String> = runs
+        .into_iter()
+        .map(|(kind, axes)| format!("{kind} {axes}"))
+        .collect();
+    runs.join(", ")
+}
+
+fn height(facts: &Facts) -> String {
+    let decimals = decimals_for(facts.rest_height);
+    let rest = fixed(facts.rest_height, decimals);
+    match facts.motion_height {
+        Some(height) => format!("{} in motion, {rest} at rest", fixed(height, decimals)),
+        None => format!("{rest} at rest"),
+    }
+}
+
+fn unit(facts: &Facts) -> String {
+    let height = facts.motion_height.unwrap_or(facts.rest_height);
+    let (low, high) = STATURE_RANGE_METRES;
+    match facts.unit {
+        Some(unit) => {
+            let metres = fixed(height * unit.metres(), 2);
+            format!(
+                "probably {}: the figure is then {metres} m tall",
+                unit.name()
+            )
+        }
+        None => format!(
+            "unknown: in no common unit is {} a person's {low} m to {high} m",
+            trimmed(height, decimals_for(height))
+        ),
+    }
+}
+
+fn up(facts: &Facts) -> &'static str {
+    match facts.up {
+        Some(UpAxis::Y) => "Y",
+        Some(UpAxis::Z) => "Z: posekit convert --up y turns it",
+        None => "unknown: the figure is not clearly taller than wide",
+    }
+}
+
+/// The rest pose in words.
+pub(super) fn rest_pose(rest: &RestPose) -> String {
+    let posture = match rest.kind {
+        RestPoseKind::Collapsed => return "all joints in one place".to_owned(),
+        RestPoseKind::NoLimbPairs => return "no pairs of arms and legs to tell it by".to_owned(),
+        RestPoseKind::Standing(ArmPosture::Sideways) => "T-pose",
+        RestPoseKind::Standing(ArmPosture::SidewaysDown) => "A-pose",
+        RestPoseKind::Standing(ArmPosture::Hanging) => "standing, arms down",
+        RestPoseKind::Standing(ArmPosture::Up) => "standing, arms up",
+        RestPoseKind::Standing(ArmPosture::Forward) => "standing, arms forward",
+        _ => {
+            let along = rest.up.map_or(String::new(), |axis| {
+                format!(" (spine along {})", end(axis))
+            });
+            return format!("not a posture: OFFSETs as no one stands{along}; the motion holds it");
+        }
+    };
+    let mut text = posture.to_owned();
+    if let Some(up) = rest.up {
+        text.push_str(&format!(", {} up", end(up)));
+    }
+    if let Some(facing) = rest.facing {
+        text.push_str(&format!(", facing {}", end(facing)));
+    }
+    text
+}
+
+fn end((axis, is_positive): (Axis, bool)) -> String {
+    format!("{}{}", if is_positive { '+' } else { '-' }, axis.letter())
+}
+
+fn pairs(facts: &Facts) -> String {
+    if facts.pairs.is_empty() {
+        return "no pairs".to_owned();
+    }
+    let named = facts.pairs.iter().take(PAIRS_NAMED);
+    let named: Vec<String> = named
+        .map(|(left, right)| format!("{} | {}", one_line(left), one_line(right)))
+        .collect();
+    let more = if facts.pairs.len() > PAIRS_NAMED {
+        ", ..."
+    } else {
+        ""
+    };
+    format!(
+        "{}: {}{more}",
+        counted(facts.pairs.len(), "pair"),
+        named.join(", ")
+    )
+}
+
+/// What the reader noticed, and where.
+pub(super) fn notice_text(notice: &Warning) -> String {
+    let weight = if is_repair(notice) { "warning" } else { "note" };
+    one_line(&format!("{weight}, {notice}"))
+}

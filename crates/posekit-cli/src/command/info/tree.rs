@@ -1,0 +1,67 @@
+//! The hierarchy, drawn.
+
+use posekit::skeleton::{JointId, Skeleton};
+
+use crate::console::{DIM, styled};
+use crate::failure::one_line;
+use crate::load::Loaded;
+use crate::text::{decimals_for, fixed, width};
+
+/// A line for every joint: its place in the tree, its name, its channels and its OFFSET.
+///
+/// Nothing recurses: a rope may have a thousand joints one below the other.
+pub(super) fn draw(skeleton: &Skeleton, loaded: &Loaded) -> String {
+    let rows: Vec<(String, String, JointId)> = skeleton
+        .roots()
+        .flat_map(|root| skeleton.subtree(root))
+        .map(|joint| (branches(skeleton, joint), label(skeleton, joint), joint))
+        .collect();
+    let widest = rows
+        .iter()
+        .map(|(branches, label, _)| width(branches) + width(label))
+        .max();
+    let decimals = decimals_for(f64::from(skeleton.height()));
+    let mut text = String::new();
+    for (branches, label, joint) in &rows {
+        let gap = widest.unwrap_or(0) - width(branches) - width(label) + 2;
+        let offset = skeleton.rest_translation(*joint).to_array();
+        let offset: Vec<String> = offset
+            .iter()
+            .map(|value| format!("{:>8}", fixed(f64::from(*value), decimals)))
+            .collect();
+        let channels = super::readable::channel_text(&loaded.bvh.joints[joint.index()].channels);
+        let detail = format!("{}  {channels}", offset.join(" "));
+        text.push_str(&styled(DIM, branches));
+        text.push_str(label);
+        text.push_str(&" ".repeat(gap));
+        text.push_str(&styled(DIM, detail.trim_end()));
+        text.push('\n');
+    }
+    text
+}
+
+fn label(skeleton: &Skeleton, joint: JointId) -> String {
+    if skeleton.is_end_site(joint) {
+        "(end)".to_owned()
+    } else {
+        one_line(skeleton.unique_name(joint))
+    }
+}
+
+/// The lines that lead to a joint: a branch of its own, and a bar for every ancestor that has later
+/// siblings.
+pub(super) fn branches(skeleton: &Skeleton, joint: JointId) -> String {
+    let mut parts = Vec::new();
+    let mut below = joint;
+    for ancestor in skeleton.ancestors(joint) {
+        let is_last = skeleton.children(ancestor).last() == Some(&below);
+        parts.push(match (below == joint, is_last) {
+            (true, true) => "└─ ",
+            (true, false) => "├─ ",
+            (false, true) => "   ",
+            (false, false) => "│  ",
+        });
+        below = ancestor;
+    }
+    parts.into_iter().rev().collect()
+}

@@ -1,0 +1,384 @@
+//! From an input and the options to a stage and the moments of it that are drawn.
+
+use std::ffi::OsString;
+use std::path::Path;
+use std::sync::Arc;
+
+use glam::Vec3;
+use posekit::keyframe::KeyedCamera;
+use posekit::motion::{Motion, PositionPolicy};
+use posekit::skeleton::{JointId, Skeleton};
+use posekit_render::camera::{Camera, Projection};
+use posekit_render::output::{even_size, spread_times};
+use posekit_render::scene::{Background, Scene};
+use posekit_render::stage::{
+    Actor, Arrangement, Ghosts, Labels, SkeletonStyle, Stage, StageOptions, Trails,
+};
+use posekit_render::theme::CharacterColors;
+
+use crate::args::Global;
+use crate::failure::Failure;
+use crate::inputs::{self, Input, Source};
+use crate::load;
+use crate::scene_file;
+use crate::select;
+
+use super::args::{RenderArgs, Size};
+use super::format::Product;
+
+/// Films are no faster than this unless asked: more frames than a screen shows.
+const MOST_FRAMES_PER_SEC: f64 = 60.0;
+/// What GIF shows evenly: four hundredths of a second a frame.
+const GIF_FRAMES_PER_SEC: f64 = 25.0;
+/// How many ghosts go before and come after.
+const GHOSTS_EACH_WAY: usize = 4;
+/// More frames than this is a mistake in the rate: hours of film.
+const MOST_FRAMES: f64 = 1e7;
+
+/// A stage and what of it is drawn.
+#[derive(Debug)]
+pub(super) struct Shot {
+    stage: Stage,
+    /// The camera of a scene file, and the scene's time at the first frame.
+    camera: Option<(KeyedCamera, f64)>,
+    /// Of one picture.
+    pub(super) size: Size,
+    /// Of a film.
+    pub(super) frames_per_sec: f64,
+    /// The moments that are drawn, seconds.
+    pub(super) times_secs: Vec<f64>,
+    /// What the reader repaired, and what else the user should know.
+    pub(super) warnings: Vec<String>,
+}
+
+impl Shot {
+    /// The scene at a time.
+    pub(super) fn scene(&self, time_secs: f64) -> Scene {
+        let aspect = self.size.width as f32 / self.size.height as f32;
+        match &self.camera {
+            Some((camera, start_secs)) => {
+                let camera = camera_at(camera, start_secs + time_secs, self.stage.stature());
+                self.stage.scene_from(time_secs, camera)
+            }
+            None => self.stage.scene(time_secs, aspect),
+        }
+    }
+
+    /// The stage's options.
+    pub(super) fn options(&self) -> &StageOptions {
+        self.stage.options()
+    }
+}
+
+/// The motions that are shown with every input.
+pub(super) fn companions(args: &RenderArgs, global: &Global) -> Result<Vec<Arc<Motion>>, Failure> {
+    let mut motions = Vec::new();
+    for name in args.overlay.iter().chain(&args.beside) {
+        motions.extend(named_motions(name, global)?);
+    }
+    Ok(motions)
+}
+
+fn named_motions(name: &OsString, global: &Global) -> Result<Vec<Arc<Motion>>, Failure> {
+    let inputs = inputs::expand(std::slice::from_ref(name));
+    if let Some(failure) = inputs.failures.into_iter().next() {
+        return Err(failure);
+    }
+    let motions = inputs.list.iter().map(|input| {
+        let (motion, _) = motion_of(input, global)?;
+        Ok(Arc::new(motion))
+    });
+    motions.collect()
+}
+
+fn motion_of(input: &Input, global: &Global) -> Result<(Motion, Vec<String>), Failure> {
+    let loaded = load::load(input, global)?;
+    let warnings = loaded.repairs(input);
+    let motion = loaded
+        .motion(PositionPolicy::Replace)
+        .map_err(|failure| failure.in_file(&input.name()))?;
+    Ok((motion, warnings))
+}
+
+/// Reads an input and sets its stage.
+pub(super) fn prepare(
+    args: &RenderArgs,
+    product: Product,
+    companions: &[Arc<Motion>],
+    input: &Input,
+    global: &Global,
+) -> Result<Shot, Failure> {
+    let name = input.name();
+    let (mut motion, mut warnings) = motion_of(input, global)?;
+    let in_file = |failure: Failure| failure.in_file(&name);
+    if motion.skeleton().joint_count() == 0 {
+        return Err(in_file(Failure::new("has no joints to draw")));
+    }
+    if motion.frame_count() == 0 && !args.rest {
+        warnings.push(format!("{name}: has no frames; this is its rest pose"));
+    }
+    if args.rest || motion.frame_count() == 0 {
+        let frame_time = Some(motion.frame_time_secs()).filter(|time| *time > 0.0);
+        let skeleton = Arc::clone(motion.skeleton());
+        motion = Motion::at_rest(skeleton, 1, frame_time.unwrap_or(1.0 / 30.0), []);
+    }
+    let (size, size_warning) = size(args, product);
+    warnings.extend(size_warning.map(|text| format!("{name}: {text}")));
+    let frames_per_sec = args
+        .fps
+        .unwrap_or_else(|| default_rate(product, motion.frame_time_secs()));
+    let longest = companions.iter().map(|motion| motion.duration_secs());
+    let end_secs = longest.fold(motion.duration_secs(), f64::max);
+    let times_secs = times(args, product, &motion, end_secs, frames_per_sec).map_err(in_file)?;
+    let options = options(args, &motion, companions).map_err(in_file)?;
+    let style = options.style;
+    let camera = match (&input.source, args.camera) {
+        (Source::File(path), None) if scene_file::is_scene(path) => first_camera(path)?,
+        _ => None,
+    };
+    let motions = std::iter::once(Arc::new(motion)).chain(companions.iter().cloned());
+    let actors = motions
+        .enumerate()
+        .map(|(index, motion)| actor(motion, style, index));
+    Ok(Shot {
+        stage: Stage::new(actors.collect(), options),
+        camera,
+        size,
+        frames_per_sec,
+        times_secs,
+        warnings,
+    })
+}
+
+/// A scene file's first camera, and the time at which its motion starts.
+fn first_camera(path: &Path) -> Result<Option<(KeyedCamera, f64)>, Failure> {
+    let scene = scene_file::read(path)?;
+    let start_secs = scene.range_secs[0];
+    let first = scene.cameras.into_iter().next();
+    Ok(first.map(|camera| (camera.view, start_secs)))
+}
+
+/// A keyed camera at a time of its scene.
+#[allow(clippy::cast_possible_truncation, reason = "pictures are drawn in f32")]
+fn camera_at(camera: &KeyedCamera, time_secs: f64, stature: f32) -> Camera {
+    /// Lenses have angles between these; keys can overshoot.
+    const FOV_DEG: [f64; 2] = [1.0, 170.0];
+    let [least, most] = FOV_DEG;
+    let fov_deg = camera.vertical_fov_deg.at(time_secs).clamp(least, most);
+    let eye = camera.position.at(time_secs).as_vec3();
+    let target = camera.target.at(time_secs).as_vec3();
+    // A camera that is where it looks to, or looks straight down, still has to look somewhere.
+    let target = if eye == target { eye - Vec3::Z } else { target };
+    let level = Vec3::new(target.x - eye.x, 0.0, target.z - eye.z);
+    let is_steep = level.length() < 1e-4 * eye.distance(target);
+    Camera {
+        eye,
+        target,
+        up: if is_steep { Vec3::NEG_Z } else { Vec3::Y },
+        projection: Projection::Perspective {
+            vertical_fov_rad: fov_deg.to_radians() as f32,
+        },
+        near: 0.01 * stature,
+        far: 100.0 * stature,
+    }
+}
+
+fn actor(motion: Arc<Motion>, style: SkeletonStyle, index: usize) -> Actor {
+    Actor::new(motion, style, CharacterColors::of(index))
+}
+
+fn size(args: &RenderArgs, product: Product) -> (Size, Option<String>) {
+    let (width, height) = match product {
+        Product::Gif => (640, 360),
+        Product::ContactSheet { .. } => (360, 480),
+        Product::Picture | Product::Numbered | Product::Mp4 | Product::Apng => (1280, 720),
+    };
+    let asked = args.size.unwrap_or(Size { width, height });
+    if product != Product::Mp4 {
+        return (asked, None);
+    }
+    let (width, height) = even_size(asked.width, asked.height);
+    let made = Size { width, height };
+    let warning = (made != asked)
+        .then(|| format!("sides of .mp4 are even: the film is {width}x{height} pixels"));
+    (made, warning)
+}
+
+/// The motion's own rate, or the greatest whole part of it that is not too fast.
+fn default_rate(product: Product, frame_time_secs: f64) -> f64 {
+    if product == Product::Gif {
+        return GIF_FRAMES_PER_SEC;
+    }
+    let own = 1.0 / frame_time_secs;
+    if !(own.is_finite() && own > 0.0) {
+        return 30.0;
+    }
+    // 60 frames a second are often written as a frame time of 0.016667.
+    let part = (own / (MOST_FRAMES_PER_SEC * 1.01)).ceil().max(1.0);
+    let rate = own / part;
+    let whole = rate.round();
+    if whole >= 1.0 && (rate - whole).abs() < 0.005 * whole {
+        whole
+    } else {
+        rate
+    }
+}
+
+fn times(
+    args: &RenderArgs,
+    product: Product,
+    motion: &Motion,
+    end_secs: f64,
+    frames_per_sec: f64,
+) -> Result<Vec<f64>, Failure> {
+    let frame_time = motion.frame_time_secs();
+    let at = |frame: usize| frame as f64 * frame_time;
+    let chosen = args
+        .frames
+        .as_ref()
+        .map(|selection| selection.frames(motion.frame_count()))
+        .transpose()?;
+    let (start, end) = match chosen.as_deref() {
+        Some([first, .., last]) => (at(*first), at(*last)),
+        Some([only]) => (at(*only), at(*only)),
+        Some([]) | None => (0.0, end_secs),
+    };
+    match (product, chosen) {
+        (Product::Picture, None) => Ok(vec![at((motion.frame_count() - 1) / 2)]),
+        (Product::Picture, Some(frames)) if frames.len() > 1 => {
+            Err(Failure::new("one picture cannot show several frames")
+                .try_next("give --contact-sheet N, or number the pictures: -o 'name_####.png'"))
+        }
+        (Product::ContactSheet { count }, _) => Ok(spread_times(usize::from(count), start, end)),
+        (Product::Numbered, None) if args.fps.is_none() => {
+            Ok((0..motion.frame_count()).map(at).collect())
+        }
+        (_, Some(frames)) if args.fps.is_none() && product != Product::Gif || !is_run(&frames) => {
+            Ok(frames.into_iter().map(at).collect())
+        }
+        _ => even_times(start, end, frames_per_sec),
+    }
+}
+
+/// Whether frames follow one another, so that another rate can be put in their place.
+fn is_run(frames: &[usize]) -> bool {
+    frames.windows(2).all(|pair| pair[1] == pair[0] + 1)
+}
+
+fn even_times(start: f64, end: f64, frames_per_sec: f64) -> Result<Vec<f64>, Failure> {
+    // The last frame may miss its time by a hair of rounding.
+    let span = ((end - start) * frames_per_sec + 1e-6).floor().max(0.0);
+    if span > MOST_FRAMES {
+        return Err(
+            Failure::new(format!("{span} frames are too many for a film"))
+                .try_next("choose a part with --frames, or a lower --fps"),
+        );
+    }
+    #[allow(clippy::cast_possible_truncation, reason = "bounded above")]
+    let count = span as usize;
+    Ok((0..=count)
+        .map(|i| start + i as f64 / frames_per_sec)
+        .collect())
+}
+
+fn options(
+    args: &RenderArgs,
+    motion: &Motion,
+    companions: &[Arc<Motion>],
+) -> Result<StageOptions, Failure> {
+    let skeleton = motion.skeleton();
+    let trails = (!args.trails.is_empty())
+        .then(|| select::joints(skeleton, &args.trails))
+        .transpose()?;
+    let labels = match args.labels.as_slice() {
+        [] => Labels::None,
+        [all] if all == "*" => Labels::All,
+        names => Labels::Of(select::joints(skeleton, names)?),
+    };
+    if let Some(joints) = &trails {
+        same_joints(skeleton, joints, companions)?;
+    }
+    if let Labels::Of(joints) = &labels {
+        same_joints(skeleton, joints, companions)?;
+    }
+    if !(args.trail_seconds > 0.0 && args.trail_seconds.is_finite()) {
+        return Err(Failure::usage("--trail-seconds must be a positive number"));
+    }
+    Ok(StageOptions {
+        style: args.style.style(),
+        axes: args.style.axes(),
+        theme: args.theme.theme(),
+        background: args.transparent.then_some(Background::Transparent),
+        camera: args.camera.unwrap_or_default().choice(),
+        follow: args.follow.follow(),
+        arrangement: if args.beside.is_empty() {
+            Arrangement::AsRecorded
+        } else {
+            Arrangement::SideBySide
+        },
+        trails: trails.map(|joints| Trails {
+            joints,
+            seconds: args.trail_seconds,
+        }),
+        ghosts: args.ghosts.map(|every| Ghosts {
+            every_frames: usize::try_from(every).unwrap_or(usize::MAX),
+            before: GHOSTS_EACH_WAY,
+            after: GHOSTS_EACH_WAY,
+        }),
+        labels,
+        unit: args.unit.unit(),
+    })
+}
+
+/// Trails and chosen labels go by a joint's place in the skeleton: it must be the same joint in all.
+fn same_joints(
+    skeleton: &Skeleton,
+    joints: &[JointId],
+    companions: &[Arc<Motion>],
+) -> Result<(), Failure> {
+    for other in companions.iter().map(|motion| motion.skeleton()) {
+        let differs = joints.iter().find(|joint| {
+            joint.index() >= other.joint_count() || other.name(**joint) != skeleton.name(**joint)
+        });
+        if let Some(joint) = differs {
+            return Err(Failure::new(format!(
+                "the other motion has no '{}' in this place of its skeleton",
+                skeleton.name(*joint)
+            ))
+            .try_next("posekit convert --reorder-like gives both one order"));
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_rate_is_the_motions_own_or_a_whole_part_of_it() {
+        for (frame_time, wanted) in [
+            (1.0 / 60.0, 60.0),
+            (0.016_667, 60.0),
+            (0.008_333, 60.0),
+            (1.0 / 240.0, 60.0),
+            (0.01, 50.0),
+            (1.0 / 30.0, 30.0),
+            (0.5, 2.0),
+            (0.0, 30.0),
+        ] {
+            let rate = default_rate(Product::Mp4, frame_time);
+            assert!((rate - wanted).abs() < 1e-9, "{frame_time}: {rate}");
+        }
+        assert!((default_rate(Product::Gif, 0.01) - 25.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_film_ends_on_its_last_frame_and_is_never_endless() {
+        let times = even_times(0.0, 1.0, 25.0).unwrap();
+        assert_eq!(times.len(), 26);
+        assert!((times[25] - 1.0).abs() < 1e-12);
+        assert!(even_times(0.0, 1e9, 1000.0).is_err());
+        assert!(even_times(0.0, f64::INFINITY, 30.0).is_err());
+    }
+}

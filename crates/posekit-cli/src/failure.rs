@@ -1,0 +1,175 @@
+//! What went wrong, as the one line that is shown for it.
+
+use std::fmt;
+use std::io;
+use std::path::Path;
+
+/// Exit code when everything asked for was done.
+pub(crate) const EXIT_DONE: u8 = 0;
+/// Exit code when something could not be done.
+pub(crate) const EXIT_COULD_NOT: u8 = 1;
+/// Exit code when the command line itself makes no sense; clap uses the same number.
+pub(crate) const EXIT_WRONG_USAGE: u8 = 2;
+
+/// Why a command, or its work on one input, stopped.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// The work could not be done: a bad file, a full disk.
+    CouldNot(Message),
+    /// The command line asks for something that makes no sense.
+    Usage(Message),
+    /// Whoever read our output stopped reading, as `head` does: not an error.
+    ClosedPipe,
+}
+
+/// One line for people: lower case, no full stop.
+#[derive(Debug)]
+pub(crate) struct Message {
+    what: String,
+    next: Option<String>,
+}
+
+impl Failure {
+    /// Something could not be done.
+    pub(crate) fn new(what: impl Into<String>) -> Self {
+        Self::CouldNot(Message {
+            what: what.into(),
+            next: None,
+        })
+    }
+
+    /// The command line asks for something that makes no sense.
+    pub(crate) fn usage(what: impl Into<String>) -> Self {
+        Self::Usage(Message {
+            what: what.into(),
+            next: None,
+        })
+    }
+
+    /// Adds what the user may do next.
+    pub(crate) fn try_next(mut self, next: impl Into<String>) -> Self {
+        if let Self::CouldNot(message) | Self::Usage(message) = &mut self {
+            message.next = Some(next.into());
+        }
+        self
+    }
+
+    /// Puts the input's name in front of the message.
+    pub(crate) fn in_file(mut self, name: &str) -> Self {
+        if let Self::CouldNot(message) | Self::Usage(message) = &mut self {
+            message.what = format!("{name}: {}", message.what);
+        }
+        self
+    }
+
+    /// An operating system's refusal to read a path, in plain words.
+    pub(crate) fn cannot_read(path: &Path, error: &io::Error) -> Self {
+        let name = path.display();
+        match error.kind() {
+            io::ErrorKind::NotFound => Self::new(format!("{name}: no such file")),
+            io::ErrorKind::PermissionDenied => {
+                Self::new(format!("{name}: not allowed to read this file"))
+                    .try_next("check its permissions")
+            }
+            io::ErrorKind::IsADirectory => Self::new(format!("{name}: is a folder, not a file")),
+            _ => Self::new(format!("{name}: cannot read: {}", plain(error))),
+        }
+    }
+
+    /// An operating system's refusal to write a path, in plain words.
+    pub(crate) fn cannot_write(path: &Path, error: &io::Error) -> Self {
+        let name = path.display();
+        match error.kind() {
+            io::ErrorKind::BrokenPipe => Self::ClosedPipe,
+            io::ErrorKind::NotFound => Self::new(format!("{name}: its folder does not exist")),
+            io::ErrorKind::PermissionDenied => {
+                Self::new(format!("{name}: not allowed to write here"))
+            }
+            io::ErrorKind::StorageFull => Self::new(format!("{name}: the disk is full")),
+            io::ErrorKind::NotADirectory => {
+                Self::new(format!("{name}: part of this path is a file, not a folder"))
+            }
+            _ => Self::new(format!("{name}: cannot write: {}", plain(error))),
+        }
+    }
+
+    /// The process's exit code for this failure.
+    pub(crate) fn exit_code(&self) -> u8 {
+        match self {
+            Self::CouldNot(_) => EXIT_COULD_NOT,
+            Self::Usage(_) => EXIT_WRONG_USAGE,
+            Self::ClosedPipe => EXIT_DONE,
+        }
+    }
+}
+
+impl From<io::Error> for Failure {
+    /// For writes to standard output; files have [`Failure::cannot_write`].
+    fn from(error: io::Error) -> Self {
+        if error.kind() == io::ErrorKind::BrokenPipe {
+            Self::ClosedPipe
+        } else {
+            Self::new(format!(
+                "cannot write to standard output: {}",
+                plain(&error)
+            ))
+        }
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::CouldNot(message) | Self::Usage(message) => {
+                // An error is one line, whatever a file name or a file's text brought with it.
+                f.write_str(&one_line(&message.what))?;
+                match &message.next {
+                    Some(next) => write!(f, "; {}", one_line(next)),
+                    None => Ok(()),
+                }
+            }
+            Self::ClosedPipe => f.write_str("the reader of our output went away"),
+        }
+    }
+}
+
+/// The operating system's words without the number that Rust appends.
+fn plain(error: &io::Error) -> String {
+    let text = error.to_string();
+    let text = text.split(" (os error").next().unwrap_or(&text);
+    text.trim_end_matches('.').to_lowercase()
+}
+
+/// `text` with its control characters escaped, so that it stays on one line and moves no cursor.
+pub(crate) fn one_line(text: &str) -> String {
+    let mut line = String::with_capacity(text.len());
+    for c in text.chars() {
+        if c.is_control() {
+            line.extend(c.escape_default());
+        } else {
+            line.push(c);
+        }
+    }
+    line
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_message_is_one_line_with_the_next_step_after_it() {
+        let failure = Failure::new("bad\nname")
+            .in_file("a.bvh")
+            .try_next("look again");
+        assert_eq!(failure.to_string(), "a.bvh: bad\\nname; look again");
+    }
+
+    #[test]
+    fn the_operating_systems_words_lose_their_number_and_full_stop() {
+        let error = io::Error::from_raw_os_error(5);
+        let text = Failure::cannot_read(Path::new("a.bvh"), &error).to_string();
+        assert!(text.starts_with("a.bvh: cannot read: "), "{text}");
+        assert!(!text.contains("os error"), "{text}");
+    }
+}

@@ -1,0 +1,178 @@
+//! From an input to the document in it.
+
+use std::fs;
+use std::io::{self, Read};
+use std::path::Path;
+
+use posekit::motion::{Motion, PositionPolicy};
+use posekit_formats::bvh::{self, Bvh};
+use posekit_formats::report::{Import, ImportReport, ReadError, Severity, Warning};
+use posekit_formats::urdf::{self, Urdf};
+
+use crate::args::Global;
+use crate::failure::{Failure, one_line};
+use crate::inputs::{Input, Source};
+use crate::scene_file;
+
+/// A document and what its reader had to say.
+#[derive(Debug)]
+pub(crate) struct Loaded {
+    /// The file's content.
+    pub(crate) bvh: Bvh,
+    /// What the reader repaired or found unusual.
+    pub(crate) notices: Vec<Warning>,
+}
+
+impl Loaded {
+    /// The motion that the document's channels make.
+    pub(crate) fn motion(&self, policy: PositionPolicy) -> Result<Motion, Failure> {
+        self.bvh
+            .to_motion(policy)
+            .map_err(|error| Failure::new(error.to_string()))
+    }
+
+    /// What the reader had to repair, as `file:line:column: message`.
+    pub(crate) fn repairs(&self, input: &Input) -> Vec<String> {
+        let repairs = self.notices.iter().filter(|notice| is_repair(notice));
+        repairs
+            .map(|notice| notice_line(&input.name(), notice))
+            .collect()
+    }
+}
+
+/// Whether a notice says that the file was wrong, and not merely unusual.
+pub(crate) fn is_repair(notice: &Warning) -> bool {
+    notice.code.severity() == Severity::Warning
+}
+
+/// Reads an input. With `--strict` a file that needed repair is a failure.
+pub(crate) fn load(input: &Input, global: &Global) -> Result<Loaded, Failure> {
+    let (import, _) = load_import(input, global)?;
+    Ok(Loaded {
+        bvh: import.document,
+        notices: import.report.warnings,
+    })
+}
+
+/// A file of motion, or of a robot.
+#[derive(Debug)]
+pub(crate) enum Subject {
+    /// A BVH file.
+    Clip(Import<Bvh>),
+    /// A URDF file.
+    Robot(Import<Urdf>),
+}
+
+/// Reads an input that may be a robot: bytes that begin as XML does are URDF. With `--strict` a file that
+/// needed repair is a failure.
+pub(crate) fn load_subject(input: &Input, global: &Global) -> Result<Subject, Failure> {
+    let name = input.name();
+    let Some(bytes) = input_bytes(input)? else {
+        return Ok(Subject::Clip(load_import(input, global)?.0));
+    };
+    if !looks_like_xml(&bytes) {
+        let import = parse(&name, &bytes)?;
+        refuse_repairs(&name, &import.report, global)?;
+        return Ok(Subject::Clip(import));
+    }
+    let import =
+        urdf::read(&bytes).map_err(|error| Failure::new(read_error_line(&name, &error)))?;
+    refuse_repairs(&name, &import.report, global)?;
+    Ok(Subject::Robot(import))
+}
+
+fn looks_like_xml(bytes: &[u8]) -> bool {
+    let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    text.trim_ascii_start().starts_with(b"<")
+}
+
+fn refuse_repairs(name: &str, report: &ImportReport, global: &Global) -> Result<(), Failure> {
+    match report.first_repair().filter(|_| global.strict) {
+        None => Ok(()),
+        Some(repair) => {
+            let failure = Failure::new(notice_line(name, repair));
+            Err(failure.try_next("it can be read without --strict"))
+        }
+    }
+}
+
+/// The bytes of an input; `None` for a scene, whose text names other files, and for a clip of our own.
+fn input_bytes(input: &Input) -> Result<Option<Vec<u8>>, Failure> {
+    match &input.source {
+        Source::File(path) if scene_file::is_scene(path) => Ok(None),
+        Source::File(path) => file_bytes(path).map(Some),
+        Source::Stdin => stdin_bytes().map(Some),
+        Source::Sample(_) => Ok(None),
+    }
+}
+
+/// As [`load`], with the reader's whole report and the bytes that were read; a scene and a clip of
+/// our own have none.
+pub(crate) fn load_import(
+    input: &Input,
+    global: &Global,
+) -> Result<(Import<Bvh>, Vec<u8>), Failure> {
+    let name = input.name();
+    let without_notices = |document| {
+        let report = ImportReport::default();
+        Ok((Import { document, report }, Vec::new()))
+    };
+    let bytes = match &input.source {
+        Source::File(path) if scene_file::is_scene(path) => {
+            return without_notices(scene_file::document(path)?);
+        }
+        Source::File(path) => file_bytes(path)?,
+        Source::Stdin => stdin_bytes()?,
+        Source::Sample(sample) => return without_notices(sample.document()?),
+    };
+    let import = parse(&name, &bytes)?;
+    refuse_repairs(&name, &import.report, global)?;
+    Ok((import, bytes))
+}
+
+fn parse(name: &str, bytes: &[u8]) -> Result<Import<Bvh>, Failure> {
+    bvh::read(bytes).map_err(|error| Failure::new(read_error_line(name, &error)))
+}
+
+/// `file:line:column: expected this, found that`, which editors and terminals make a link of.
+fn read_error_line(name: &str, error: &ReadError) -> String {
+    let ReadError {
+        location,
+        expected,
+        found,
+        ..
+    } = error;
+    format!(
+        "{name}:{}:{}: expected {expected}, found {found}",
+        location.line, location.column
+    )
+}
+
+fn notice_line(name: &str, notice: &Warning) -> String {
+    let Warning {
+        code,
+        line,
+        column,
+        message,
+        count,
+    } = notice;
+    let more = if *count > 1 {
+        format!(" (and {} more)", count - 1)
+    } else {
+        String::new()
+    };
+    one_line(&format!("{name}:{line}:{column}: {message} [{code}]{more}"))
+}
+
+fn file_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
+    fs::read(path).map_err(|error| Failure::cannot_read(path, &error))
+}
+
+fn stdin_bytes() -> Result<Vec<u8>, Failure> {
+    let mut bytes = Vec::new();
+    io::stdin()
+        .lock()
+        .read_to_end(&mut bytes)
+        .map_err(|error| Failure::cannot_read(Path::new("standard input"), &error))?;
+    Ok(bytes)
+}

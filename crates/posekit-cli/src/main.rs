@@ -1,0 +1,65 @@
+//! The `posekit` command: arguments, files, threads, progress and exit codes around the library.
+
+mod args;
+mod batch;
+mod command;
+mod console;
+mod failure;
+mod inputs;
+mod jobs;
+mod load;
+mod output;
+mod progress;
+mod root_offset;
+mod sample;
+mod scene_file;
+mod select;
+mod text;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use args::{Cli, Command};
+use failure::{EXIT_DONE, Failure};
+
+fn main() -> ExitCode {
+    let cli = Cli::parse();
+    console::set_color(cli.global.color);
+    output::remove_unfinished_on_interrupt();
+    let Some(command) = cli.command else {
+        return finish(command::start::run(&cli.global));
+    };
+    finish(match command {
+        Command::Info(args) => command::info::run(&args, &cli.global),
+        Command::Check(args) => command::check::run(&args, &cli.global),
+        Command::Fix(args) => command::fix::run(&args, &cli.global),
+        Command::Fk(args) => command::fk::run(&args, &cli.global),
+        Command::Convert(args) => command::convert::run(&args, &cli.global),
+        Command::Ik(args) => command::ik::run(&args, &cli.global),
+        Command::IkStudy(args) => command::ik_study::run(&args, &cli.global),
+        #[cfg(feature = "window")]
+        Command::View(args) => command::view::run(&args),
+        Command::Serve(args) => command::serve::run(&args, &cli.global),
+        Command::Render(args) => command::render::run(&args, &cli.global),
+        Command::Keys(args) => command::keys::run(&args, &cli.global),
+        Command::Inbetween(args) => command::inbetween::run(&args, &cli.global),
+        Command::Slerp(args) => command::slerp::run(&args),
+        Command::Sample(args) => command::sample::run(&args, &cli.global),
+        Command::Completions(args) => command::completions::run(&args),
+        Command::Man(args) => command::man::run(&args),
+    })
+}
+
+/// Says what went wrong, if anything, and gives the exit code.
+fn finish(result: Result<(), Failure>) -> ExitCode {
+    match result {
+        Ok(()) => ExitCode::from(EXIT_DONE),
+        Err(failure) => {
+            if !matches!(failure, Failure::ClosedPipe) {
+                console::error(&failure.to_string());
+            }
+            ExitCode::from(failure.exit_code())
+        }
+    }
+}

@@ -1,0 +1,228 @@
+//! `posekit check` as a user runs it: exit codes, what it says, and the fields of its JSON.
+
+use serde_json::Value;
+
+use crate::harness::{ARM, Folder};
+
+/// The arm over and over, with an Euler flip of the elbow for ten frames in the middle.
+pub(crate) fn flipping_arm() -> String {
+    let head = ARM.split("Frames:").next().unwrap();
+    let mut text = format!("{head}Frames: 60\nFrame Time: 0.02\n");
+    for frame in 0..60 {
+        let turn = if (25..35).contains(&frame) { 360 } else { 0 };
+        text += &format!("0 20 0 {frame} 0 0 0 0 {}\n", turn - frame);
+    }
+    text
+}
+
+/// The lines of a report that are about findings.
+fn findings(report: &str) -> Vec<&str> {
+    report
+        .lines()
+        .filter(|line| line.starts_with("  "))
+        .collect()
+}
+
+fn json_lines(text: &str) -> Vec<Value> {
+    text.lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect()
+}
+
+#[test]
+fn a_clean_file_has_nothing_suspicious() {
+    let folder = Folder::with_arm();
+    let report = folder.succeed(&["check", "sample:walk", "--min", "warning"]);
+    assert_eq!(
+        report.lines().next(),
+        Some("sample:walk: nothing suspicious above --min (1 below it)")
+    );
+    assert!(findings(&report).is_empty(), "{report}");
+}
+
+#[test]
+fn our_own_samples_have_no_warnings() {
+    let folder = Folder::with_arm();
+    for sample in ["walk", "run", "wave", "arm"] {
+        let report = folder.succeed(&["check", &format!("sample:{sample}")]);
+        let serious = findings(&report)
+            .into_iter()
+            .filter(|line| !line.trim_start().starts_with("info"));
+        assert_eq!(serious.count(), 0, "{report}");
+    }
+}
+
+#[test]
+fn findings_stand_with_the_worst_first_and_say_what_to_do_next() {
+    let folder = Folder::with_arm();
+    let still = flipping_arm().replace("Frame Time: 0.02", "Frame Time: 0");
+    folder.write("bad.bvh", still);
+    let ran = folder.run(&["check", "bad.bvh"]);
+    assert_eq!(ran.code, Some(1));
+    assert_eq!(
+        ran.stderr,
+        "error: bad.bvh: not accepted, for the findings above\n"
+    );
+    let severities: Vec<&str> = findings(&ran.stdout)
+        .iter()
+        .filter_map(|line| line.split_whitespace().next())
+        .collect();
+    let wanted = ["error", "warning", "warning", "info", "info", "info"];
+    assert_eq!(severities, wanted, "{}", ran.stdout);
+    let heading = ran.stdout.lines().next();
+    assert_eq!(heading, Some("bad.bvh: 1 error, 2 warnings, 3 infos"));
+    assert!(ran.stdout.contains("docs/check/CODE.md"), "{}", ran.stdout);
+    assert!(
+        ran.stdout.contains("posekit fix 'bad.bvh' -o fixed.bvh"),
+        "{}",
+        ran.stdout
+    );
+    let columns: Vec<Option<usize>> = findings(&ran.stdout)
+        .iter()
+        .map(|line| line.find("frames 25 to 35"))
+        .collect();
+    assert!(columns.contains(&Some(11)), "{}", ran.stdout);
+}
+
+#[test]
+fn several_files_have_a_summary() {
+    let folder = Folder::with_arm();
+    folder.write("in/clean.bvh", ARM.replace("Time: 0.5", "Time: 0.04"));
+    folder.write("in/flip.bvh", flipping_arm());
+    let report = folder.succeed(&["check", "in", "--min", "warning"]);
+    let summary = report
+        .lines()
+        .find(|line| line.starts_with("2 files checked:"));
+    assert!(
+        summary.unwrap().ends_with("; 1 with warnings or errors"),
+        "{report}"
+    );
+    let quiet = folder.succeed(&["check", "in", "--min", "warning", "--quiet"]);
+    assert!(!quiet.contains("files checked"), "{quiet}");
+}
+
+#[test]
+fn a_code_that_is_denied_fails() {
+    let folder = Folder::with_arm();
+    folder.write("flip.bvh", flipping_arm());
+    folder.succeed(&["check", "flip.bvh"]);
+    folder.succeed(&["check", "flip.bvh", "--deny", "teleport"]);
+    let error = folder.fail(1, &["check", "flip.bvh", "arm.bvh", "--deny", "euler-flip"]);
+    assert_eq!(
+        error,
+        "error: flip.bvh: not accepted, for the findings above\n"
+    );
+    let error = folder.fail(2, &["check", "flip.bvh", "--deny", "no-such-code"]);
+    assert!(error.contains("docs/check/README.md"), "{error}");
+}
+
+#[test]
+fn what_cannot_be_read_fails_and_the_others_are_checked() {
+    let folder = Folder::with_arm();
+    folder.write("in/a.bvh", ARM);
+    folder.write("in/b.bvh", "not a motion");
+    let ran = folder.run(&["check", "in"]);
+    assert_eq!(ran.code, Some(1));
+    assert!(ran.stdout.contains("a.bvh: "), "{}", ran.stdout);
+    assert!(ran.stderr.contains("1 of 2 failed"), "{}", ran.stderr);
+}
+
+#[test]
+fn json_has_the_fields_of_the_guide() {
+    let folder = Folder::with_arm();
+    folder.write(
+        "flip.bvh",
+        flipping_arm().replace("Frames: 60", "Frames: 61"),
+    );
+    let lines = json_lines(&folder.succeed(&["check", "--json", "flip.bvh", "arm.bvh"]));
+    assert_eq!(lines.len(), 2);
+    assert_eq!(lines[0]["file"], "flip.bvh");
+    let findings = lines[0]["findings"].as_array().unwrap();
+    for finding in findings {
+        let mut fields: Vec<&str> = finding
+            .as_object()
+            .unwrap()
+            .keys()
+            .map(String::as_str)
+            .collect();
+        fields.sort_unstable();
+        assert_eq!(
+            fields,
+            [
+                "code",
+                "column",
+                "frames",
+                "joints",
+                "line",
+                "message",
+                "page",
+                "severity",
+                "share_of_height",
+                "unit",
+                "value"
+            ]
+        );
+    }
+    let of_code = |code: &str| {
+        let found = findings.iter().find(|finding| finding["code"] == code);
+        found.unwrap_or_else(|| panic!("{code}: {findings:#?}"))
+    };
+    let flip = of_code("euler-flip");
+    assert_eq!(flip["severity"], "warning");
+    assert_eq!(flip["joints"], serde_json::json!(["elbow"]));
+    assert_eq!(
+        flip["frames"],
+        serde_json::json!({ "first": 25, "last": 35 })
+    );
+    assert_eq!(flip["unit"], "occurrences");
+    assert_eq!(flip["page"], "docs/check/euler-flip.md");
+    assert!(flip["line"].is_null());
+    let count = of_code("frame-count-mismatch");
+    assert_eq!(count["line"], 17);
+    assert!(count["frames"].is_null());
+}
+
+#[test]
+fn root_offset_says_where_the_figure_is() {
+    // A figure with feet whose root OFFSET lifts it off the floor if it is added.
+    let folder = Folder::with_arm();
+    folder.succeed(&["sample", "walk", "-o", "walk.bvh"]);
+    let text = folder.read("walk.bvh");
+    let at = text.find("OFFSET").unwrap();
+    let end = at + text[at..].find('\n').unwrap();
+    let lifted = format!("{}OFFSET 0 100 0{}", &text[..at], &text[end..]);
+    folder.write("lifted.bvh", lifted);
+    let has_floor = |args: &[&str]| {
+        let lines = json_lines(&folder.succeed(args));
+        let findings = lines[0]["findings"].as_array().unwrap();
+        findings
+            .iter()
+            .any(|finding| finding["code"] == "floor-not-at-zero")
+    };
+    assert!(!has_floor(&["check", "--json", "lifted.bvh"]));
+    assert!(has_floor(&[
+        "check",
+        "--json",
+        "lifted.bvh",
+        "--root-offset",
+        "add"
+    ]));
+    folder.fail(2, &["check", "lifted.bvh", "--root-offset", "maybe"]);
+}
+
+#[test]
+fn open_ends_are_one_finding() {
+    let folder = Folder::with_arm();
+    let open = "JOINT hand { OFFSET 1 0 0 CHANNELS 0 End Site { OFFSET 0 0 0 } }";
+    let two = format!("{open}\n{}\nEnd Site", open.replace("hand", "thumb"));
+    folder.write("open.bvh", ARM.replace("End Site", &two));
+    let lines = json_lines(&folder.succeed(&["check", "--json", "open.bvh"]));
+    let findings = lines[0]["findings"].as_array().unwrap();
+    let ends: Vec<&Value> = findings
+        .iter()
+        .filter(|finding| finding["code"] == "zero-length-end-site")
+        .collect();
+    assert_eq!(ends.len(), 1, "{findings:#?}");
+    assert_eq!(ends[0]["joints"], serde_json::json!(["hand", "thumb"]));
+    assert_eq!(ends[0]["value"], 2.0);
+}

@@ -1,0 +1,312 @@
+//! `posekit keys`, `inbetween` and `slerp`, and scene files where motions go.
+
+use std::path::Path;
+use std::process::Command;
+
+use crate::harness::{Folder, real_data};
+
+const SCENE: &str = r#"format = "posekit scene"
+version = 1
+range_secs = [1, 2]
+frames_per_sec = 10
+skeleton = { file = "arm.bvh" }
+
+[[track]]
+joint = "elbow"
+property = "rotation"
+euler_deg = "ZXY"
+keys = [
+  { at = 1, value = [0, 0, 0], curve = "linear" },
+  { at = 2, value = [90, 0, 0] },
+]
+
+[[camera]]
+name = "close"
+position = [0, 1, 9]
+target = [0, 1, 0]
+vertical_fov_deg = { keys = [{ at = 1, value = 20, curve = "linear" }, { at = 2, value = 60 }] }
+"#;
+
+fn folder() -> Folder {
+    let folder = Folder::with_arm();
+    folder.write("bend.posekit.toml", SCENE);
+    folder
+}
+
+#[test]
+fn keys_are_listed_and_baked() {
+    let folder = folder();
+    let text = folder.succeed(&["keys", "print", "bend.posekit.toml"]);
+    assert!(
+        text.contains("4 keys on 2 tracks, 1 s to 2 s at 10 frames a second"),
+        "{text}"
+    );
+    assert!(
+        text.contains("elbow") && text.contains("camera close"),
+        "{text}"
+    );
+    let csv = folder.succeed(&["keys", "print", "bend.posekit.toml", "--csv"]);
+    assert!(csv.contains("\"elbow\",rotation,1,linear,0,0,0,1"), "{csv}");
+    folder.succeed(&["keys", "bake", "bend.posekit.toml", "-o", "out.bvh"]);
+    let text = folder.read("out.bvh");
+    assert!(
+        text.contains("Frames: 11") && text.contains("Frame Time: 0.1"),
+        "{text}"
+    );
+    let last = text.lines().last().unwrap();
+    assert!(last.ends_with("90 0 0"), "{last}");
+    folder.succeed(&[
+        "keys",
+        "bake",
+        "bend.posekit.toml",
+        "-o",
+        "slow.bvh",
+        "--fps",
+        "2",
+    ]);
+    assert!(folder.read("slow.bvh").contains("Frames: 3"));
+    let error = folder.fail(
+        2,
+        &[
+            "keys",
+            "bake",
+            "bend.posekit.toml",
+            "-o",
+            "x.bvh",
+            "--fps",
+            "0",
+        ],
+    );
+    assert!(error.contains("--fps"), "{error}");
+}
+
+#[test]
+fn scenes_go_wherever_motions_go() {
+    let folder = folder();
+    let text = folder.succeed(&["info", "bend.posekit.toml"]);
+    assert!(text.contains("11 at 10 fps"), "{text}");
+    folder.succeed(&["fk", "bend.posekit.toml", "-o", "places.csv"]);
+    assert!(folder.read("places.csv").lines().count() > 11);
+    folder.succeed(&["convert", "bend.posekit.toml", "half.bvh", "--fps", "5"]);
+    assert!(folder.read("half.bvh").contains("Frames: 6"));
+}
+
+#[test]
+fn a_scenes_camera_takes_the_picture() {
+    let folder = folder();
+    let render = |out: &str, more: &[&str]| {
+        let mut args = vec![
+            "render",
+            "bend.posekit.toml",
+            "-o",
+            out,
+            "--renderer",
+            "cpu",
+        ];
+        args.extend(["--size", "64x48"]);
+        args.extend(more);
+        folder.succeed(&args);
+        std::fs::read(folder.path().join(out)).unwrap()
+    };
+    let first = render("first.png", &["--frames", "0"]);
+    let last = render("last.png", &["--frames", "10"]);
+    let framed = render(
+        "framed.png",
+        &["--frames", "0", "--camera", "three-quarter"],
+    );
+    assert_ne!(first, last, "the lens widens");
+    assert_ne!(first, framed, "--camera goes before the scene's own");
+}
+
+#[test]
+fn scenes_that_do_not_work_say_where() {
+    let folder = folder();
+    let error = |name: &str, text: &str| {
+        folder.write(name, text);
+        folder.fail(1, &["info", name])
+    };
+    let newer = error(
+        "newer.posekit.toml",
+        &SCENE.replace("version = 1", "version = 2"),
+    );
+    assert!(
+        newer.contains("newer.posekit.toml:2:11: version: "),
+        "{newer}"
+    );
+    assert!(newer.contains("a newer posekit can open it"), "{newer}");
+    let typo = error("typo.posekit.toml", &SCENE.replace("curve", "curv"));
+    assert!(typo.contains("typo.posekit.toml:12:"), "{typo}");
+    let gone = error("gone.posekit.toml", &SCENE.replace("arm.bvh", "leg.bvh"));
+    assert!(gone.contains("leg.bvh: no such file"), "{gone}");
+    let joint = error(
+        "joint.posekit.toml",
+        &SCENE.replace("\"elbow\"", "\"knee\""),
+    );
+    assert!(joint.contains("no joint `knee`"), "{joint}");
+}
+
+#[test]
+fn a_reduced_motion_bakes_back_within_the_error() {
+    let folder = folder();
+    let note = folder.run(&["keys", "reduce", "sample:walk", "-o", "walk.posekit.toml"]);
+    assert_eq!(note.code, Some(0), "{}", note.stderr);
+    assert!(
+        note.stderr.contains("keys") && note.stderr.contains('%'),
+        "{}",
+        note.stderr
+    );
+    folder.succeed(&["keys", "bake", "walk.posekit.toml", "-o", "again.bvh"]);
+    folder.succeed(&["sample", "walk", "-o", "walk.bvh"]);
+    let [a, b] = ["walk.bvh", "again.bvh"].map(|name| {
+        let text = folder.succeed(&["fk", name, "-o", "-", "--format", "json"]);
+        let value: serde_json::Value = serde_json::from_str(&text).unwrap();
+        numbers(&value["positions"])
+    });
+    assert_eq!(a.len(), b.len());
+    let apart = a
+        .iter()
+        .zip(&b)
+        .map(|(a, b)| (a - b).abs())
+        .fold(0.0, f64::max);
+    assert!(apart < 0.01 * 1.75, "{apart} m");
+    let error = folder.fail(
+        1,
+        &["keys", "reduce", "sample:walk", "-o", "-", "--angle", "0"],
+    );
+    assert!(error.contains("at least 0.001"), "{error}");
+}
+
+fn numbers(value: &serde_json::Value) -> Vec<f64> {
+    match value {
+        serde_json::Value::Array(items) => items.iter().flat_map(numbers).collect(),
+        other => vec![other.as_f64().unwrap()],
+    }
+}
+
+#[test]
+fn in_betweens_are_compared_and_written() {
+    let folder = folder();
+    let args = [
+        "inbetween",
+        "sample:walk",
+        "--keep",
+        "10",
+        "--method",
+        "slerp,euler,squad",
+    ];
+    let text = folder.succeed(&args);
+    assert!(
+        text.contains("28 of 262 frames kept") || text.contains("frames kept"),
+        "{text}"
+    );
+    let mut with_report = args.to_vec();
+    with_report.extend(["--report=out/walk10", "-o", "filled.bvh"]);
+    folder.succeed(&with_report);
+    let html = folder.read("out/walk10.html");
+    assert!(html.starts_with("<!doctype html>") && html.contains("<svg") && !html.contains("http"));
+    assert!(folder.read("out/walk10.md").contains("| squad |"));
+    let csv = folder.read("out/walk10.csv");
+    assert!(csv.lines().count() > 60, "{csv}");
+    assert!(folder.read("filled.bvh").starts_with("HIERARCHY"));
+    folder.succeed(&[
+        "inbetween",
+        "sample:walk",
+        "--at",
+        "0,20,40",
+        "--frames",
+        "50",
+        "-o",
+        "slow.bvh",
+    ]);
+    assert!(folder.read("slow.bvh").contains("Frames: 101"));
+    folder.fail(2, &["inbetween", "sample:walk"]);
+    folder.fail(2, &["inbetween", "sample:walk", "--keep", "0"]);
+    folder.fail(
+        2,
+        &[
+            "inbetween",
+            "sample:walk",
+            "--keep",
+            "5",
+            "--method",
+            "slurp",
+        ],
+    );
+}
+
+/// `tools/inbetween_reference.py`: SciPy's Slerp and numpy.interp over the file's own channels.
+#[test]
+fn in_betweens_are_those_of_scipy() {
+    let has_scipy = Command::new("python3")
+        .args(["-c", "import numpy, scipy"])
+        .output();
+    if !has_scipy.is_ok_and(|output| output.status.success()) {
+        eprintln!("skipped: no python3 with NumPy and SciPy");
+        return;
+    }
+    let folder = folder();
+    folder.succeed(&["sample", "run", "-o", "run.bvh"]);
+    let mut files = vec![folder.path().join("run.bvh")];
+    if let Some(data) = real_data() {
+        files.push(data.join("course/motion_walking.bvh"));
+        files.push(data.join("cmu/cmu_12_01_walk.bvh"));
+    }
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tools/inbetween_reference.py");
+    for file in files {
+        let name = file.to_str().unwrap();
+        folder.succeed(&[
+            "inbetween",
+            name,
+            "--keep",
+            "10",
+            "--method",
+            "slerp,euler",
+            "--report=compared",
+        ]);
+        let output = Command::new("python3")
+            .arg(&script)
+            .args([name, "compared.csv", "--keep", "10"])
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
+        let said = String::from_utf8_lossy(&output.stdout);
+        let errors = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{name}: {said}{errors}");
+    }
+}
+
+#[test]
+fn ways_between_orientations_are_tabled() {
+    let folder = folder();
+    let text = folder.succeed(&["slerp", "0,0,0", "90,45,0", "--steps", "4"]);
+    for wanted in [
+        "How far from slerp",
+        "How fast it turns",
+        "Determinant",
+        "Shear",
+        "euler:ZXY",
+    ] {
+        assert!(text.contains(wanted), "{wanted}: {text}");
+    }
+    let csv = folder.succeed(&[
+        "slerp",
+        "--preset",
+        "half-turn",
+        "--method",
+        "matrix",
+        "--csv",
+    ]);
+    let middle: Vec<&str> = csv.lines().nth(6).unwrap().split(',').collect();
+    // Half-way through 179 degrees the determinant is cos(89.5 degrees)^2.
+    let determinant: f64 = middle[8].parse().unwrap();
+    assert!(
+        (determinant - 89.5_f64.to_radians().cos().powi(2)).abs() < 1e-9,
+        "{csv}"
+    );
+    folder.succeed(&[
+        "slerp", "--preset", "gimbal", "--before", "0,0,-5", "--method", "squad",
+    ]);
+    folder.fail(2, &["slerp", "0,0,0"]);
+    folder.fail(2, &["slerp", "0,0,0", "here"]);
+    folder.fail(2, &["slerp", "--preset", "gimbal", "--order", "XYX2"]);
+}

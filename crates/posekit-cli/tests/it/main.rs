@@ -1,0 +1,30 @@
+//! The command as a user runs it: the built binary, files, exit code, standard output and error.
+
+#![allow(missing_docs, reason = "a test binary has no documentation of its own")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "helpers of tests fail and skip as tests do"
+)]
+
+mod check;
+mod convert;
+mod failures;
+mod fix;
+mod fk;
+mod floors;
+mod harness;
+mod ik;
+mod ik_study;
+mod info;
+mod keys;
+mod manuals;
+mod numpy;
+mod real_files;
+mod reference;
+mod render;
+mod robots;
+#[cfg(unix)]
+mod serve;
+mod whole_files;

@@ -1,0 +1,167 @@
+//! Everything worth knowing about a BVH file in one list: what the reader noticed, what is wrong with
+//! the channels, and what is suspicious in the motion.
+
+use posekit::check::{
+    CheckConfig, Finding, FrameRange, Severity, Unit, check_channels, check_motion,
+};
+use posekit::motion::PositionPolicy;
+use posekit::skeleton::{JointId, Skeleton, SkeletonError};
+
+use super::{Bvh, BvhJoint};
+use crate::report::{self, ImportReport, Location, Warning, WarningCode};
+
+/// One entry of a file's check, ready to be shown: a [`Finding`] or a reader's [`Warning`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct CheckEntry {
+    /// The stable code, that of a [`FindingCode`](posekit::check::FindingCode) or of a
+    /// [`WarningCode`](crate::report::WarningCode); the guide has a page for each.
+    pub code: &'static str,
+    /// How much it means. A reader's note is an [`Severity::Info`].
+    pub severity: Severity,
+    /// The unique names of the joints that it is about; empty when it is about the whole file.
+    pub joints: Vec<String>,
+    /// The frames that it is about, counted from 0; `None` when it is about all or none.
+    pub frames: Option<FrameRange>,
+    /// Where it is in the file, for what the reader noticed.
+    pub location: Option<Location>,
+    /// How much was measured, in `unit`.
+    pub value: f64,
+    /// What `value` counts.
+    pub unit: Unit,
+    /// The same length as a share of the figure's height, where `value` is a length.
+    pub share_of_height: Option<f64>,
+    /// What was found, in a sentence without a capital and a full stop.
+    pub message: String,
+}
+
+/// Checks a document: first what the reader noticed, one entry a code (its place is that of the first
+/// occurrence, `value` counts all of them), in the order of the file, then the findings in
+/// channels and motion, sorted as [`posekit::check::sort_findings`] does.
+///
+/// `import_report` is what [`read`](super::read()) returned with the document; `policy` is what its
+/// position channels mean.
+///
+/// # Errors
+/// When the document has no skeleton, as [`Bvh::to_skeleton`].
+pub fn check(
+    bvh: &Bvh,
+    import_report: &ImportReport,
+    policy: PositionPolicy,
+    config: &CheckConfig,
+) -> Result<Vec<CheckEntry>, SkeletonError> {
+    let motion = bvh.to_motion(policy)?;
+    let skeleton = motion.skeleton();
+    let mut findings = check_motion(&motion, &motion.to_global(), config);
+    if let Some(rows) = &bvh.motion {
+        let layout = bvh.channel_layout();
+        findings.extend(check_channels(skeleton, &layout, &rows.values, config));
+    }
+    posekit::check::sort_findings(&mut findings);
+    let mut entries = reader_entries(import_report);
+    for entry in &mut entries {
+        if entry.code == WarningCode::ZeroLengthEndSite.code() {
+            name_open_ends(entry, bvh, skeleton);
+        }
+    }
+    entries.extend(
+        findings
+            .into_iter()
+            .map(|finding| finding_entry(finding, skeleton)),
+    );
+    Ok(entries)
+}
+
+/// How many of the lines that a folded entry stands for its message lists.
+const LINES_LISTED: usize = 8;
+
+/// What the reader of a file of any format noticed: one entry for each code, in the order of the file, since
+/// a skeleton with five open ends has one peculiarity and not five.
+pub fn reader_entries(import_report: &ImportReport) -> Vec<CheckEntry> {
+    let mut sorted: Vec<&Warning> = import_report.warnings.iter().collect();
+    sorted.sort_by_key(|warning| (warning.line, warning.column, warning.code));
+    let mut by_code: Vec<Vec<&Warning>> = Vec::new();
+    for warning in sorted {
+        match by_code.iter_mut().find(|same| same[0].code == warning.code) {
+            Some(same) => same.push(warning),
+            None => by_code.push(vec![warning]),
+        }
+    }
+    by_code.iter().map(|same| warning_entry(same)).collect()
+}
+
+/// The entry for warnings of one code; not empty.
+fn warning_entry(same: &[&Warning]) -> CheckEntry {
+    let first = same[0];
+    let count: usize = same.iter().map(|warning| warning.count).sum();
+    let message = if count > 1 {
+        format!(
+            "{} (and {} more like it{})",
+            first.message,
+            count - 1,
+            other_lines(&same[1..], count - 1)
+        )
+    } else {
+        first.message.clone()
+    };
+    CheckEntry {
+        code: first.code.code(),
+        severity: match first.code.severity() {
+            report::Severity::Note => Severity::Info,
+            report::Severity::Warning => Severity::Warning,
+        },
+        joints: Vec::new(),
+        frames: None,
+        location: Some(first.location()),
+        value: count as f64,
+        unit: Unit::Occurrences,
+        share_of_height: None,
+        message,
+    }
+}
+
+/// Says whose End Sites have no length.
+fn name_open_ends(entry: &mut CheckEntry, bvh: &Bvh, skeleton: &Skeleton) {
+    let is_open =
+        |joint: &&BvhJoint| joint.is_end_site && joint.offset.iter().all(|&number| number == 0.0);
+    entry.joints = bvh
+        .joints
+        .iter()
+        .filter(is_open)
+        .filter_map(|joint| Some(skeleton.unique_name(JointId::new(joint.parent?)).to_owned()))
+        .collect();
+    let whose = entry.joints.join(", ");
+    entry.message = match entry.joints.len() {
+        1 => format!("the End Site of {whose} has no length"),
+        count => format!("{count} End Sites have no length, those of {whose}"),
+    };
+}
+
+/// `, lines 12, 40, 88`, with dots where not all lines of `count` warnings are listed.
+fn other_lines(others: &[&Warning], count: usize) -> String {
+    let lines: Vec<String> = others
+        .iter()
+        .take(LINES_LISTED)
+        .map(|warning| warning.line.to_string())
+        .collect();
+    let more = if lines.len() < count { ", ..." } else { "" };
+    match lines.as_slice() {
+        [] => String::new(),
+        [line] => format!(", line {line}{more}"),
+        lines => format!(", lines {}{more}", lines.join(", ")),
+    }
+}
+
+fn finding_entry(finding: Finding, skeleton: &Skeleton) -> CheckEntry {
+    let name = |&joint| skeleton.unique_name(joint).to_owned();
+    CheckEntry {
+        code: finding.code.code(),
+        severity: finding.severity,
+        joints: finding.joints.iter().map(name).collect(),
+        frames: finding.frames,
+        location: None,
+        value: finding.value,
+        unit: finding.unit,
+        share_of_height: finding.share_of_height,
+        message: finding.message,
+    }
+}

@@ -1,0 +1,131 @@
+//! From the library's motion to a document.
+
+use posekit::motion::{Channel, Motion};
+use posekit::rotation::{Axis, EulerOrder};
+use posekit::skeleton::{JointId, Skeleton};
+
+use super::{Bvh, BvhJoint, BvhMotion};
+
+/// Decimals that lengths and angles in degrees are rounded to: beyond what the `f32` of a motion can
+/// tell, for lengths up to ten units and any angle.
+const DECIMALS_KEPT: f64 = 1e6;
+
+impl Bvh {
+    /// A document of a motion: position and rotation channels on the joints that are translated,
+    /// rotation channels in `order` on the others, none on End Sites. Angles are those closest to the
+    /// frame before, lengths and angles rounded to six decimals.
+    ///
+    /// Rest rotations, which BVH has no word for, become part of the motion. With an order that is
+    /// not complete, rotations are the nearest that it can make. A leaf that is no End Site gets none.
+    ///
+    /// The joints stand in depth-first order, as the format has it, whatever their order in the
+    /// skeleton.
+    pub fn from_motion(motion: &Motion, order: EulerOrder) -> Self {
+        let skeleton = motion.skeleton();
+        let ids = depth_first(skeleton);
+        let mut place_of = vec![0; ids.len()];
+        for (place, id) in ids.iter().enumerate() {
+            place_of[id.index()] = place;
+        }
+        let mut is_translated = vec![false; ids.len()];
+        for joint in motion.translated_joints() {
+            is_translated[joint.index()] = true;
+        }
+        let joints = ids.iter().map(|&id| BvhJoint {
+            name: name(skeleton, id).into_bytes(),
+            parent: skeleton.parent(id).map(|parent| place_of[parent.index()]),
+            offset: skeleton
+                .rest_translation(id)
+                .as_dvec3()
+                .to_array()
+                .map(rounded),
+            channels: channels(skeleton.is_end_site(id), is_translated[id.index()], order),
+            is_end_site: skeleton.is_end_site(id),
+        });
+        let joints: Vec<BvhJoint> = joints.collect();
+        let mut values = Vec::new();
+        let mut previous_rad = vec![[0.0; 3]; ids.len()];
+        for frame in 0..motion.frame_count() {
+            for &id in ids.iter().filter(|&&id| !skeleton.is_end_site(id)) {
+                if is_translated[id.index()] {
+                    let place = motion.translation(frame, id).as_dvec3();
+                    values.extend(place.to_array().map(rounded));
+                }
+                let previous = &mut previous_rad[id.index()];
+                let rotation = motion.rotation(frame, id).as_dquat();
+                *previous = order.from_quat_near(rotation, *previous).angles_rad;
+                let angles = previous.iter().take(order.axes().len());
+                values.extend(angles.map(|angle| rounded(angle.to_degrees())));
+            }
+        }
+        let motion = BvhMotion {
+            frame_time_secs: motion.frame_time_secs(),
+            frame_count: motion.frame_count(),
+            values,
+        };
+        Self {
+            joints,
+            motion: Some(motion),
+        }
+    }
+}
+
+fn depth_first(skeleton: &Skeleton) -> Vec<JointId> {
+    skeleton
+        .roots()
+        .flat_map(|root| skeleton.subtree(root))
+        .collect()
+}
+
+/// The joint's own name, or what the reader calls an End Site.
+fn name(skeleton: &Skeleton, joint: JointId) -> String {
+    match skeleton.parent(joint) {
+        Some(parent) if skeleton.is_end_site(joint) => format!("{}_end", skeleton.name(parent)),
+        _ => skeleton.name(joint).to_owned(),
+    }
+}
+
+fn channels(is_end_site: bool, is_translated: bool, order: EulerOrder) -> Vec<Channel> {
+    if is_end_site {
+        return Vec::new();
+    }
+    let positions = Axis::ALL
+        .into_iter()
+        .filter(|_| is_translated)
+        .map(Channel::Position);
+    positions
+        .chain(order.axes().iter().copied().map(Channel::Rotation))
+        .collect()
+}
+
+/// Rounded, and never `-0`.
+fn rounded(value: f64) -> f64 {
+    (value * DECIMALS_KEPT).round() / DECIMALS_KEPT + 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use posekit::motion::PositionPolicy;
+
+    #[test]
+    fn a_document_of_a_motion_makes_the_same_motion() {
+        let motion = posekit::sample::by_name("walk").unwrap();
+        let bvh = Bvh::from_motion(&motion, EulerOrder::ZXY);
+        bvh.validate().unwrap();
+        let again = bvh.to_motion(PositionPolicy::Replace).unwrap();
+        assert_eq!(again.frame_count(), motion.frame_count());
+        let (a, b) = (motion.to_global(), again.to_global());
+        for frame in 0..motion.frame_count() {
+            for joint in motion.skeleton().joints() {
+                let name = motion.skeleton().unique_name(joint);
+                let there = again.skeleton().find(name).unwrap();
+                let gap = a.position(frame, joint).distance(b.position(frame, there));
+                assert!(gap < 1e-5, "{name} at {frame}: {gap}");
+            }
+        }
+        let read = crate::bvh::read(&crate::bvh::write(&bvh)).unwrap();
+        assert_eq!(read.document, bvh);
+        assert!(read.report.is_empty(), "{:?}", read.report);
+    }
+}

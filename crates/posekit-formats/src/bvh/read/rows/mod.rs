@@ -1,0 +1,152 @@
+//! Rows of numbers: where their values gather, and the fast parsers for plain stretches.
+//!
+//! A plain stretch is numbers of digits with at most a minus, a point and an exponent, blanks and line
+//! ends between them. At anything else a fast parser stops, before the token it is not sure of.
+
+mod exact;
+mod portable;
+#[cfg(target_arch = "x86_64")]
+#[path = "avx2.rs"]
+mod wide_lanes;
+
+use super::RowParser;
+use super::scan::Comma;
+
+/// What line ends mean.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Lines {
+    /// Nothing: rows may be wrapped or share a line.
+    Ignored,
+    /// A line with a whole row's values is a row, and what hangs before it is damaged.
+    Kept,
+}
+
+/// The values as they come, and what was odd about the lines they came in.
+#[derive(Debug)]
+pub(super) struct Rows {
+    pub(super) values: Vec<f64>,
+    pub(super) channel_count: usize,
+    lines: Lines,
+    /// How many values there were when the line began.
+    line_start: usize,
+    /// How many lines have values, but not one row of them; where the first of them and the last end.
+    pub(super) odd_lines: usize,
+    pub(super) odd_line_at: Option<usize>,
+    last_odd_line_at: usize,
+    /// How many values there were at the last line end that was also a row's.
+    in_step: usize,
+    /// How many lines have the values of one row, and whether such a line began within a row.
+    whole_lines: usize,
+    out_of_step: bool,
+    /// Where the lines end whose values were dropped.
+    pub(super) damaged_at: Vec<usize>,
+    /// How many tokens the wide parser still lets pass before it tries again.
+    #[cfg(target_arch = "x86_64")]
+    patience: u32,
+}
+
+impl Rows {
+    pub(super) fn new(channel_count: usize, values_expected: usize, lines: Lines) -> Self {
+        Self {
+            values: Vec::with_capacity(values_expected),
+            channel_count,
+            lines,
+            line_start: 0,
+            odd_lines: 0,
+            odd_line_at: None,
+            last_odd_line_at: 0,
+            in_step: 0,
+            whole_lines: 0,
+            out_of_step: false,
+            damaged_at: Vec::new(),
+            #[cfg(target_arch = "x86_64")]
+            patience: 0,
+        }
+    }
+
+    /// Forgets everything, to read the same rows again with another meaning of line ends.
+    pub(super) fn restart(&mut self, lines: Lines) {
+        let mut values = std::mem::take(&mut self.values);
+        values.clear();
+        *self = Self {
+            values,
+            ..Self::new(self.channel_count, 0, lines)
+        };
+    }
+
+    /// Whether the file keeps a row to a line, mostly, and yet whole rows stand where the count of values
+    /// says that a row is half done.
+    pub(super) fn is_out_of_step(&self) -> bool {
+        self.out_of_step && self.whole_lines > self.odd_lines
+    }
+
+    /// Adds a value; `bytes_left` bounds how many more may come.
+    pub(super) fn push(&mut self, value: f64, bytes_left: usize) {
+        self.reserve(1, bytes_left);
+        self.values.push(value);
+    }
+
+    /// Makes room. Beyond what the header promised, room grows by an eighth at a time, and never beyond
+    /// what the rest of the file could hold, so that memory stays in proportion.
+    pub(super) fn reserve(&mut self, additional: usize, bytes_left: usize) {
+        if self.values.capacity() - self.values.len() < additional {
+            let growth = (self.values.len() / 8 + 1024).min(bytes_left / 2 + 1);
+            self.values.reserve_exact(growth.max(additional));
+        }
+    }
+
+    /// Notes the end of a line, at a byte offset.
+    pub(super) fn end_line(&mut self, at: usize) {
+        let in_line = self.values.len() - self.line_start;
+        if in_line == self.channel_count {
+            let hanging = self.line_start % self.channel_count;
+            if hanging > 0 && self.lines == Lines::Kept {
+                self.values.drain(self.in_step..self.line_start);
+                self.damaged_at.push(self.last_odd_line_at);
+            }
+            self.whole_lines += 1;
+            self.out_of_step |= hanging > 0;
+        } else if in_line > 0 {
+            self.odd_lines += 1;
+            self.odd_line_at.get_or_insert(at);
+            self.last_odd_line_at = at;
+        }
+        self.line_start = self.values.len();
+        if self.line_start.is_multiple_of(self.channel_count) {
+            self.in_step = self.line_start;
+        }
+    }
+}
+
+/// Reads plain numbers from `pos` on, until about `limit`, the end, or a token that is not plain. Gives
+/// the position it stopped at, which is before a token or among blanks.
+pub(super) fn read_plain(
+    rows: &mut Rows,
+    bytes: &[u8],
+    pos: usize,
+    limit: usize,
+    comma: Comma,
+    parser: RowParser,
+) -> usize {
+    let pos = match parser {
+        RowParser::Careful => return pos,
+        RowParser::Portable => pos,
+        RowParser::Fastest => wide_lanes::read_plain(rows, bytes, pos, limit, comma),
+    };
+    portable::read_plain(rows, bytes, pos, limit, comma)
+}
+
+#[cfg(not(target_arch = "x86_64"))]
+mod wide_lanes {
+    //! No such machine: the portable parser does it all.
+
+    pub(super) fn read_plain(
+        _: &mut super::Rows,
+        _: &[u8],
+        pos: usize,
+        _: usize,
+        _: super::Comma,
+    ) -> usize {
+        pos
+    }
+}

@@ -1,0 +1,316 @@
+//! What a scene file says.
+
+use std::sync::Arc;
+
+use glam::{DQuat, DVec3, Vec3};
+use posekit::keyframe::{Animation, KeyedCamera, KeyedLight, KeyedTransform, Track};
+use posekit::rotation::EulerOrder;
+use posekit::skeleton::{JointId, Skeleton, SkeletonBuilder, SkeletonError};
+
+/// Authored work: a skeleton, what plays on it, and what stands around it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// What it is called; may be empty.
+    pub title: String,
+    /// From when to when it plays, in seconds.
+    pub range_secs: [f64; 2],
+    /// The rate that it is played and baked at.
+    pub frames_per_sec: f64,
+    /// The skeleton that moves.
+    pub skeleton: SkeletonSource,
+    /// Motions of files, in the order of their start.
+    pub motions: Vec<MotionLayer>,
+    /// The keyed joints. A keyed rotation or translation takes the place of what motions say of it.
+    pub tracks: Vec<JointTrack>,
+    /// The cameras; pictures are taken by the first one, or by the viewer's own where there is none.
+    pub cameras: Vec<Camera>,
+    /// The lights.
+    pub lights: Vec<Light>,
+    /// Objects that stand around.
+    pub props: Vec<Prop>,
+}
+
+/// Where the skeleton comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SkeletonSource {
+    /// A motion file, its path relative to the scene's folder, or a clip of our own such as
+    /// `sample:walk`.
+    File(String),
+    /// The joints themselves, a parent before its children.
+    Inline(Vec<InlineJoint>),
+}
+
+/// A joint of a skeleton that stands in the scene itself.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InlineJoint {
+    /// Its name.
+    pub name: String,
+    /// The index of its parent among the joints before it; `None` for a root.
+    pub parent: Option<usize>,
+    /// Its place in its parent's space at rest.
+    pub translation: DVec3,
+    /// Its rotation in its parent's space at rest.
+    pub rotation: DQuat,
+    /// Whether it only marks where its parent's link ends.
+    pub is_end_site: bool,
+}
+
+/// A motion that plays on the skeleton, joints matched by name.
+///
+/// The layer whose start is the last one at or before a time is the one that plays. Before its start the
+/// first one shows its first frame; past its end a layer keeps its last one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MotionLayer {
+    /// The file, its path relative to the scene's folder, or a clip of our own.
+    pub file: String,
+    /// When it starts in the scene, in seconds.
+    pub start_secs: f64,
+    /// From when to when of the file it plays; all of it when not given.
+    pub clip_secs: Option<[f64; 2]>,
+}
+
+/// A keyed joint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JointTrack {
+    /// The joint's unique name (see [`Skeleton::unique_name`]).
+    pub joint: String,
+    /// What of it is keyed.
+    pub values: JointValues,
+}
+
+/// What of a joint is keyed.
+#[derive(Clone, Debug, PartialEq)]
+pub enum JointValues {
+    /// Its rotation in the parent's space.
+    Rotation {
+        /// The keys.
+        track: Track<DQuat>,
+        /// How the file writes them, if not as quaternions.
+        euler: Option<EulerNotation>,
+    },
+    /// Its translation in the parent's space, in place of the rest translation.
+    Translation(Track<DVec3>),
+}
+
+/// How a track's orientations are written: as Euler angles.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EulerNotation {
+    /// The order of the axes.
+    pub order: EulerOrder,
+    /// The angles of each key as the file has them, in degrees. A key whose orientation is no longer
+    /// that of its angles is written with new ones.
+    pub angles_deg: Vec<[f64; 3]>,
+}
+
+/// A camera.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Camera {
+    /// What it is called.
+    pub name: String,
+    /// Where it is and what it sees.
+    pub view: KeyedCamera,
+}
+
+/// A light.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Light {
+    /// What it is called.
+    pub name: String,
+    /// Where it is and how it shines.
+    pub shine: KeyedLight,
+}
+
+/// An object.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Prop {
+    /// What it is called.
+    pub name: String,
+    /// What it looks like: `box`, `sphere`, or the path of a mesh file relative to the scene's folder.
+    pub shape: String,
+    /// Where it is.
+    pub transform: KeyedTransform,
+}
+
+/// Why a scene does not fit its skeleton.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SceneError {
+    /// The skeleton has no joint of this name.
+    #[error("the skeleton has no joint `{joint}`, which is keyed")]
+    NoSuchJoint {
+        /// The name.
+        joint: String,
+    },
+    /// An End Site does not turn.
+    #[error("joint `{joint}` is an End Site: its rotation cannot be keyed")]
+    EndSiteTurns {
+        /// The joint's name.
+        joint: String,
+    },
+    /// The joints of the scene are no skeleton.
+    #[error(transparent)]
+    Skeleton(#[from] SkeletonError),
+}
+
+impl Scene {
+    /// A scene in which nothing happens for a second.
+    pub fn new(skeleton: SkeletonSource) -> Self {
+        Self {
+            title: String::new(),
+            range_secs: [0.0, 1.0],
+            frames_per_sec: 30.0,
+            skeleton,
+            motions: Vec::new(),
+            tracks: Vec::new(),
+            cameras: Vec::new(),
+            lights: Vec::new(),
+            props: Vec::new(),
+        }
+    }
+
+    /// The files that it names, each once: that of the skeleton first, then those of the motions.
+    pub fn files(&self) -> Vec<&str> {
+        let skeleton = match &self.skeleton {
+            SkeletonSource::File(path) => Some(path.as_str()),
+            SkeletonSource::Inline(_) => None,
+        };
+        let motions = self.motions.iter().map(|layer| layer.file.as_str());
+        let mut files: Vec<&str> = Vec::new();
+        for file in skeleton.into_iter().chain(motions) {
+            if !files.contains(&file) {
+                files.push(file);
+            }
+        }
+        files
+    }
+
+    /// The tracks as an animation of the skeleton.
+    ///
+    /// # Errors
+    /// [`SceneError`] when the skeleton has no joint of a track's name, or one that cannot turn.
+    pub fn animation(&self, skeleton: &Arc<Skeleton>) -> Result<Animation, SceneError> {
+        let mut animation = Animation::new(Arc::clone(skeleton));
+        for JointTrack { joint, values } in &self.tracks {
+            let name = || joint.clone();
+            let id = skeleton
+                .find(joint)
+                .ok_or_else(|| SceneError::NoSuchJoint { joint: name() })?;
+            animation = match values {
+                JointValues::Rotation { .. } if skeleton.is_end_site(id) => {
+                    return Err(SceneError::EndSiteTurns { joint: name() });
+                }
+                JointValues::Rotation { track, .. } => {
+                    animation.with_rotation(id, Some(track.clone()))
+                }
+                JointValues::Translation(track) => {
+                    animation.with_translation(id, Some(track.clone()))
+                }
+            };
+        }
+        Ok(animation)
+    }
+
+    /// Takes an animation's tracks in place of its own. Tracks of joints that are still keyed keep
+    /// their place in the file and the notation of their orientations; new ones follow, joint by joint,
+    /// in Euler angles of `notation` or as quaternions.
+    pub fn set_animation(&mut self, animation: &Animation, notation: Option<EulerOrder>) {
+        let skeleton = animation.skeleton();
+        let mut tracks: Vec<JointTrack> = Vec::new();
+        let mut done = vec![[false; 2]; skeleton.joint_count()];
+        for old in std::mem::take(&mut self.tracks) {
+            let Some(joint) = skeleton.find(&old.joint) else {
+                continue;
+            };
+            let (kind, values) = match old.values {
+                JointValues::Rotation { euler, .. } => {
+                    let track = animation.rotation(joint);
+                    let rotation = |track: &Arc<Track<DQuat>>| JointValues::Rotation {
+                        track: track.as_ref().clone(),
+                        euler,
+                    };
+                    (0, track.map(rotation))
+                }
+                JointValues::Translation(_) => (1, animation.translation(joint).map(translation)),
+            };
+            if let (false, Some(values)) = (done[joint.index()][kind], values) {
+                done[joint.index()][kind] = true;
+                tracks.push(JointTrack {
+                    joint: old.joint,
+                    values,
+                });
+            }
+        }
+        let euler = notation.map(|order| EulerNotation {
+            order,
+            angles_deg: Vec::new(),
+        });
+        for joint in skeleton.joints() {
+            let name = || skeleton.unique_name(joint).to_owned();
+            let new = |kind: usize| !done[joint.index()][kind];
+            if let Some(track) = animation.translation(joint).filter(|_| new(1)) {
+                tracks.push(JointTrack {
+                    joint: name(),
+                    values: translation(track),
+                });
+            }
+            if let Some(track) = animation.rotation(joint).filter(|_| new(0)) {
+                tracks.push(JointTrack {
+                    joint: name(),
+                    values: JointValues::Rotation {
+                        track: track.as_ref().clone(),
+                        euler: euler.clone(),
+                    },
+                });
+            }
+        }
+        self.tracks = tracks;
+    }
+}
+
+fn translation(track: &Arc<Track<DVec3>>) -> JointValues {
+    JointValues::Translation(track.as_ref().clone())
+}
+
+impl SkeletonSource {
+    /// The joints of a skeleton, to stand in the scene itself. `f32` values are written as the shortest
+    /// decimals that give them back.
+    pub fn inline(skeleton: &Skeleton) -> Self {
+        let joint = |id: JointId| InlineJoint {
+            name: skeleton.name(id).to_owned(),
+            parent: skeleton.parent(id).map(JointId::index),
+            translation: shortest(skeleton.rest_translation(id)),
+            rotation: skeleton.rest_rotation(id).as_dquat(),
+            is_end_site: skeleton.is_end_site(id),
+        };
+        Self::Inline(skeleton.joints().map(joint).collect())
+    }
+
+    /// The skeleton of joints that stand in the scene; `None` when it comes from a file.
+    ///
+    /// # Errors
+    /// [`SkeletonError`] when the joints are no skeleton.
+    pub fn inline_skeleton(&self) -> Option<Result<Skeleton, SkeletonError>> {
+        let Self::Inline(joints) = self else {
+            return None;
+        };
+        let mut builder = SkeletonBuilder::new();
+        for joint in joints {
+            let name = joint.name.clone();
+            let at = joint.translation.as_vec3();
+            match joint.parent.map(JointId::new) {
+                Some(parent) if joint.is_end_site => builder.end_site(name, parent, at),
+                parent => builder.oriented_joint(name, parent, at, joint.rotation.as_quat()),
+            };
+        }
+        Some(builder.build())
+    }
+}
+
+/// The `f64` whose shortest decimal is that of the `f32`: 0.1 and not 0.10000000149.
+fn shortest(v: Vec3) -> DVec3 {
+    let mut text = crate::number_text::NumberText::default();
+    let parts = v
+        .to_array()
+        .map(|part| text.of(part).parse().unwrap_or(f64::from(part)));
+    DVec3::from_array(parts)
+}

@@ -1,0 +1,180 @@
+//! A scene together with the files that it names: a pose at every time.
+
+use std::sync::Arc;
+
+use posekit::keyframe::{Animation, BakeConfig};
+use posekit::motion::Motion;
+use posekit::pose::LocalPose;
+use posekit::skeleton::{JointId, Skeleton, SkeletonError};
+
+use super::document::{MotionLayer, Scene, SceneError, SkeletonSource};
+
+/// What can be posed and baked of a scene.
+#[derive(Clone, Debug)]
+pub struct Shot {
+    skeleton: Arc<Skeleton>,
+    animation: Animation,
+    layers: Vec<Layer>,
+    range_secs: [f64; 2],
+    frames_per_sec: f64,
+}
+
+/// A motion that plays on the scene's skeleton.
+#[derive(Clone, Debug)]
+struct Layer {
+    start_secs: f64,
+    clip_secs: [f64; 2],
+    motion: Arc<Motion>,
+    /// Pairs of a joint of the motion and the scene's joint of its name.
+    joints: Vec<(JointId, JointId)>,
+}
+
+/// Why a scene and its files do not make a shot; `E` is what went wrong with a file.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ShotError<E: std::error::Error + 'static> {
+    /// A file could not be had.
+    #[error("{path}: {error}")]
+    File {
+        /// The path as the scene names it.
+        path: String,
+        /// What went wrong.
+        error: E,
+    },
+    /// The scene does not fit its skeleton.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+}
+
+impl Shot {
+    /// Puts a scene together. `load` gives the motion of a file that the scene names; it is asked once
+    /// for each.
+    ///
+    /// # Errors
+    /// [`ShotError`] when a file cannot be had, the scene's joints are no skeleton, or a joint that is
+    /// keyed does not exist.
+    pub fn new<E: std::error::Error + 'static>(
+        scene: &Scene,
+        mut load: impl FnMut(&str) -> Result<Arc<Motion>, E>,
+    ) -> Result<Self, ShotError<E>> {
+        let mut motions: Vec<(&str, Arc<Motion>)> = Vec::new();
+        for path in scene.files() {
+            let motion = load(path).map_err(|error| ShotError::File {
+                path: path.to_owned(),
+                error,
+            })?;
+            motions.push((path, motion));
+        }
+        let motion = |path: &str| {
+            motions
+                .iter()
+                .find(|(name, _)| *name == path)
+                .map(|(_, m)| m)
+        };
+        let skeleton = match &scene.skeleton {
+            SkeletonSource::File(path) => motion(path).map(|motion| Arc::clone(motion.skeleton())),
+            inline @ SkeletonSource::Inline(_) => {
+                let built = inline
+                    .inline_skeleton()
+                    .transpose()
+                    .map_err(SceneError::from)?;
+                built.map(Arc::new)
+            }
+        };
+        let skeleton = skeleton.ok_or(SceneError::from(SkeletonError::Empty))?;
+        let animation = scene.animation(&skeleton)?;
+        let mut layers: Vec<Layer> = scene
+            .motions
+            .iter()
+            .filter_map(|layer| Some(Layer::new(layer, motion(&layer.file)?, &skeleton)))
+            .collect();
+        layers.sort_by(|a, b| a.start_secs.total_cmp(&b.start_secs));
+        Ok(Self {
+            skeleton,
+            animation,
+            layers,
+            range_secs: scene.range_secs,
+            frames_per_sec: scene.frames_per_sec,
+        })
+    }
+
+    /// The skeleton that moves.
+    pub fn skeleton(&self) -> &Arc<Skeleton> {
+        &self.skeleton
+    }
+
+    /// The keyed joints.
+    pub fn animation(&self) -> &Animation {
+        &self.animation
+    }
+
+    /// Fills `pose` with the pose at a time in seconds: the layer that plays, under the keyed joints.
+    pub fn sample_into(&self, time_secs: f64, pose: &mut LocalPose) {
+        pose.clone_from(&LocalPose::rest(&self.skeleton));
+        let playing = self
+            .layers
+            .iter()
+            .rev()
+            .find(|layer| layer.start_secs <= time_secs);
+        if let Some(layer) = playing.or(self.layers.first()) {
+            layer.sample_into(time_secs, pose);
+        }
+        for (joint, track) in self.animation.rotations() {
+            pose.rotations[joint.index()] = track.sample(time_secs).as_quat();
+        }
+        for (joint, track) in self.animation.translations() {
+            pose.translations[joint.index()] = track.sample(time_secs).as_vec3();
+        }
+    }
+
+    /// The motion of the scene's time range at its own rate, or at another.
+    ///
+    /// Its translated joints are the roots and those that a motion or a key moves.
+    pub fn bake(&self, frames_per_sec: Option<f64>) -> Motion {
+        let rate = frames_per_sec.unwrap_or(self.frames_per_sec);
+        let config = BakeConfig::of_range(self.range_secs, rate);
+        let mut moving: Vec<JointId> = self.skeleton.roots().collect();
+        moving.extend(self.animation.translations().map(|(joint, _)| joint));
+        for layer in &self.layers {
+            let moves = |id: JointId| layer.motion.translated_joints().binary_search(&id).is_ok();
+            let theirs = layer.joints.iter().filter(|(from, _)| moves(*from));
+            moving.extend(theirs.map(|&(_, to)| to));
+        }
+        let skeleton = Arc::clone(&self.skeleton);
+        let (frames, step) = (config.frame_count, config.frame_time_secs);
+        let mut motion = Motion::at_rest(skeleton, frames, step, moving);
+        let mut pose = LocalPose::rest(&self.skeleton);
+        for (frame, count) in (0..frames).zip(0_u32..) {
+            self.sample_into(config.start_secs + f64::from(count) * step, &mut pose);
+            motion.set_pose(frame, &pose);
+        }
+        motion
+    }
+}
+
+impl Layer {
+    fn new(layer: &MotionLayer, motion: &Arc<Motion>, skeleton: &Skeleton) -> Self {
+        let theirs = motion.skeleton();
+        let matched = theirs.joints().filter_map(|joint| {
+            let ours = skeleton.find(theirs.unique_name(joint))?;
+            Some((joint, ours))
+        });
+        Self {
+            start_secs: layer.start_secs,
+            clip_secs: layer.clip_secs.unwrap_or([0.0, motion.duration_secs()]),
+            joints: matched.collect(),
+            motion: Arc::clone(motion),
+        }
+    }
+
+    fn sample_into(&self, time_secs: f64, pose: &mut LocalPose) {
+        let [from, to] = self.clip_secs;
+        let theirs = self
+            .motion
+            .sample((from + (time_secs - self.start_secs).max(0.0)).min(to));
+        for &(from, to) in &self.joints {
+            pose.rotations[to.index()] = theirs.rotations[from.index()];
+            pose.translations[to.index()] = theirs.translations[from.index()];
+        }
+    }
+}

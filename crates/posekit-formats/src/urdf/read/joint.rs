@@ -1,0 +1,168 @@
+//! Joints: what they connect, how they move, how far, and which other joint they follow.
+
+use super::Names;
+use super::value::{number, numbers, origin, required, required_child};
+use super::xml::Element;
+use crate::report::{ReadError, ReadErrorKind, Reporter, WarningCode, quote};
+use crate::urdf::{UrdfJoint, UrdfJointKind, UrdfLimit, UrdfMimic};
+
+/// How far from 1 an axis' length may be without a word about it: numbers with four digits pass.
+const AXIS_LENGTH_TOLERANCE: f64 = 1e-3;
+
+/// Below this length an axis says no direction.
+const ZERO_AXIS: f64 = 1e-9;
+
+/// A `<joint>`, its mimic apart, which [`read_mimic`] reads when all joints are known.
+pub(super) fn read(
+    element: Element<'_, '_>,
+    links: &Names,
+    reporter: &mut Reporter<'_>,
+) -> Result<UrdfJoint, ReadError> {
+    let (name, _) = required(element, "name", reporter)?;
+    let kind = read_kind(element, reporter)?;
+    let parent = read_link(element, "parent", links, reporter)?;
+    let child = read_link(element, "child", links, reporter)?;
+    Ok(UrdfJoint {
+        name: name.into_owned(),
+        kind,
+        parent,
+        child,
+        origin: origin(element, reporter)?,
+        axis: read_axis(element, kind, reporter)?,
+        limit: read_limit(element, kind, reporter)?,
+        mimic: None,
+    })
+}
+
+fn read_kind(
+    element: Element<'_, '_>,
+    reporter: &mut Reporter<'_>,
+) -> Result<UrdfJointKind, ReadError> {
+    let (word, at) = required(element, "type", reporter)?;
+    let kind = UrdfJointKind::ALL
+        .into_iter()
+        .find(|kind| kind.name() == word);
+    kind.ok_or_else(|| {
+        let expected = "revolute, continuous, prismatic, fixed, floating or planar";
+        reporter.unexpected(at, expected, quote(word.as_bytes()))
+    })
+}
+
+/// The link that `<parent>` or `<child>` names.
+fn read_link(
+    element: Element<'_, '_>,
+    side: &str,
+    links: &Names,
+    reporter: &mut Reporter<'_>,
+) -> Result<usize, ReadError> {
+    let (name, at) = required(required_child(element, side, reporter)?, "link", reporter)?;
+    links.get(&name).ok_or_else(|| {
+        let found = format!("{}, which is no link of it", quote(name.as_bytes()));
+        reporter.error(ReadErrorKind::UnknownName, at, "a link of this file", found)
+    })
+}
+
+/// The unit axis; X where the file gives none, as the format says.
+fn read_axis(
+    element: Element<'_, '_>,
+    kind: UrdfJointKind,
+    reporter: &mut Reporter<'_>,
+) -> Result<[f64; 3], ReadError> {
+    const DEFAULT: [f64; 3] = [1.0, 0.0, 0.0];
+    let Some(axis) = element.child("axis") else {
+        return Ok(DEFAULT);
+    };
+    let given: [f64; 3] = numbers(axis, "xyz", reporter)?.unwrap_or(DEFAULT);
+    // Scaled first, so that squares neither vanish nor overflow.
+    let size = given
+        .iter()
+        .fold(0.0, |size: f64, part| size.max(part.abs()));
+    let uses_axis = !matches!(kind, UrdfJointKind::Fixed | UrdfJointKind::Floating);
+    if size < ZERO_AXIS {
+        if uses_axis {
+            let found = "one without a length";
+            return Err(reporter.unexpected(axis.at(), "an axis with a direction", found));
+        }
+        return Ok(DEFAULT);
+    }
+    let scaled = given.map(|part| part / size);
+    let length = scaled.iter().map(|part| part * part).sum::<f64>().sqrt();
+    if uses_axis && (length * size - 1.0).abs() > AXIS_LENGTH_TOLERANCE {
+        reporter.warn(WarningCode::AxisNotUnit, axis.at(), || {
+            let long = length * size;
+            format!("an axis is {long} long instead of 1; its direction is used")
+        });
+    }
+    Ok(scaled.map(|part| part / length))
+}
+
+fn read_limit(
+    element: Element<'_, '_>,
+    kind: UrdfJointKind,
+    reporter: &mut Reporter<'_>,
+) -> Result<Option<UrdfLimit>, ReadError> {
+    let is_limited = matches!(kind, UrdfJointKind::Revolute | UrdfJointKind::Prismatic);
+    let Some(limit) = element.child("limit") else {
+        if is_limited {
+            reporter.warn(WarningCode::MissingJointLimit, element.at(), || {
+                format!("a {} joint has no limit; it moves freely", kind.name())
+            });
+        }
+        return Ok(None);
+    };
+    // A bound that is not given is zero, as the format says.
+    let mut lower = number(limit, "lower", reporter)?.unwrap_or(0.0);
+    let mut upper = number(limit, "upper", reporter)?.unwrap_or(0.0);
+    if lower > upper {
+        if is_limited {
+            reporter.warn(WarningCode::ReversedJointLimit, limit.at(), || {
+                format!("the lower limit {lower} is above the upper one {upper}; they are swapped")
+            });
+        }
+        (lower, upper) = (upper, lower);
+    }
+    Ok(Some(UrdfLimit {
+        lower,
+        upper,
+        effort: number(limit, "effort", reporter)?,
+        velocity: number(limit, "velocity", reporter)?,
+    }))
+}
+
+/// The `<mimic>` of a joint of this kind, when all joints are known.
+pub(super) fn read_mimic(
+    element: Element<'_, '_>,
+    kind: UrdfJointKind,
+    joints: &[UrdfJoint],
+    names: &Names,
+    reporter: &mut Reporter<'_>,
+) -> Result<Option<UrdfMimic>, ReadError> {
+    let Some(mimic) = element.child("mimic") else {
+        return Ok(None);
+    };
+    if kind == UrdfJointKind::Fixed {
+        return Ok(None);
+    }
+    let (name, at) = required(mimic, "joint", reporter)?;
+    let followed = names.get(&name).ok_or_else(|| {
+        let found = format!("{}, which is no joint of it", quote(name.as_bytes()));
+        reporter.error(
+            ReadErrorKind::UnknownName,
+            at,
+            "a joint of this file",
+            found,
+        )
+    })?;
+    for kind in [kind, joints[followed].kind] {
+        if kind.value_count() != 1 {
+            let expected = "a joint with one value, following one with one value";
+            let found = format!("a {} joint", kind.name());
+            return Err(reporter.unexpected(at, expected, found));
+        }
+    }
+    Ok(Some(UrdfMimic {
+        joint: followed,
+        multiplier: number(mimic, "multiplier", reporter)?.unwrap_or(1.0),
+        offset: number(mimic, "offset", reporter)?.unwrap_or(0.0),
+    }))
+}

@@ -1,0 +1,161 @@
+//! The fast row parsers and the careful scanner say the same of everything: values to the bit, warnings
+//! with their places, errors. Real files, generated rows, and both with random damage.
+
+use std::ops::ControlFlow;
+
+use crate::bvh_real_files::{bits, files};
+use crate::bvh_text::with_rows;
+use posekit_formats::bvh::{self, Bvh, ReadOptions, RowParser};
+use posekit_formats::report::{Import, ReadError};
+use proptest::prelude::*;
+
+fn read(bytes: &[u8], row_parser: RowParser) -> Result<Import<Bvh>, ReadError> {
+    bvh::read_with(
+        bytes,
+        ReadOptions {
+            row_parser,
+            ..ReadOptions::default()
+        },
+        |_| ControlFlow::Continue(()),
+    )
+}
+
+/// Checks that all parsers agree, and gives what they agree on.
+fn agreed(bytes: &[u8]) -> Result<Import<Bvh>, ReadError> {
+    let careful = read(bytes, RowParser::Careful);
+    for parser in [RowParser::Portable, RowParser::Fastest] {
+        let fast = read(bytes, parser);
+        match (&careful, &fast) {
+            (Ok(careful), Ok(fast)) => {
+                assert!(
+                    bits(&careful.document) == bits(&fast.document),
+                    "{parser:?}"
+                );
+                assert_eq!(careful.report, fast.report, "{parser:?}");
+            }
+            (Err(careful), Err(fast)) => assert_eq!(careful, fast, "{parser:?}"),
+            _ => panic!("{parser:?} gives {fast:?}, the scanner {careful:?}"),
+        }
+    }
+    careful
+}
+
+#[test]
+fn on_real_files() {
+    for path in files() {
+        agreed(&std::fs::read(path).unwrap()).unwrap();
+    }
+}
+
+/// A number as some program might write it.
+fn number() -> impl Strategy<Value = String> {
+    prop_oneof![
+        6 => (-200.0..200.0_f64, 0..8_usize).prop_map(|(x, digits)| format!("{x:.digits$}")),
+        2 => any::<f64>().prop_filter("finite", |x| x.is_finite()).prop_map(|x| format!("{x:e}")),
+        1 => any::<f64>().prop_filter("finite", |x| x.is_finite()).prop_map(|x| format!("{x}")),
+        2 => "-?[0-9]{1,20}",
+        2 => "-?[0-9]{0,9}\\.[0-9]{1,20}",
+        2 => "[-+]?[0-9]{1,4}\\.[0-9]{0,7}[eE][-+]?[0-9]{1,2}",
+        1 => "-?0\\.0{0,20}[0-9]{0,20}",
+        1 => Just("9007199254740993".to_string()),
+        1 => Just("-0".to_string()),
+    ]
+}
+
+/// What stands between numbers: mostly one blank.
+fn separator() -> impl Strategy<Value = &'static str> {
+    prop_oneof![
+        20 => Just(" "),
+        4 => Just("\n"),
+        2 => Just("\r\n"),
+        2 => Just("  "),
+        1 => Just("\t"),
+        1 => Just(" \n \n"),
+    ]
+}
+
+/// The same, and what is odd.
+fn odd_piece() -> impl Strategy<Value = String> {
+    prop_oneof![
+        60 => number(),
+        1 => "[-+.,eE0-9# ;/\\r\\n\\t\u{b}x\u{e9}]{1,6}",
+        1 => Just("\r".to_string()),
+        1 => Just("1,5".to_string()),
+        1 => Just("2.0-3.5".to_string()),
+        1 => "[0-9]{60,200}",
+    ]
+}
+
+fn rows(piece: impl Strategy<Value = String>) -> impl Strategy<Value = String> {
+    prop::collection::vec((piece, separator()), 0..600).prop_map(|pieces| {
+        pieces
+            .into_iter()
+            .map(|(piece, after)| piece + after)
+            .collect()
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    /// Sound numbers are also what the standard library makes of them.
+    #[test]
+    fn on_sound_rows(rows in rows(number())) {
+        let count = rows.split_ascii_whitespace().count();
+        let rows = rows + &" 0".repeat(count.next_multiple_of(4) - count);
+        let expected: Vec<u64> =
+            rows.split_ascii_whitespace().map(|word| word.parse::<f64>().unwrap().to_bits()).collect();
+        let import = agreed(with_rows(expected.len() / 4, &rows).as_bytes());
+        let motion = import.unwrap().document.motion.unwrap();
+        let values: Vec<u64> = motion.values.iter().map(|value| value.to_bits()).collect();
+        prop_assert!(values == expected);
+    }
+
+    #[test]
+    fn on_odd_rows(rows in rows(odd_piece()), frames in 0..160_usize) {
+        let _ = agreed(with_rows(frames, &rows).as_bytes());
+    }
+
+    /// Bytes of a sound file are changed, taken out and put in.
+    #[test]
+    fn on_damaged_files(
+        rows in rows(number()),
+        damage in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>(), 0..3_u8), 1..6),
+    ) {
+        let mut bytes = with_rows(rows.split_ascii_whitespace().count() / 4, &rows).into_bytes();
+        for (place, byte, how) in damage {
+            let at = place.index(bytes.len());
+            match how {
+                0 => bytes[at] = byte,
+                1 => bytes.insert(at, byte & 0x7f),
+                _ => { bytes.remove(at); }
+            }
+        }
+        if let Ok(import) = agreed(&bytes) {
+            let again = bvh::read(&bvh::write(&import.document)).unwrap();
+            prop_assert!(bits(&import.document) == bits(&again.document));
+        }
+    }
+}
+
+#[test]
+fn a_beginning_is_read_without_complaint() {
+    let rows: String = (0..200).map(|frame| format!("{frame} 0 0\n")).collect();
+    let text = format!(
+        "HIERARCHY\nROOT a\n{{\nOFFSET 0 0 0\nCHANNELS 3 Xposition Yposition Zposition\n\
+         End Site\n{{\nOFFSET 0 1 0\n}}\n}}\nMOTION\nFrames: 1000000\nFrame Time: 0.1\n{rows}"
+    );
+    let options = ReadOptions {
+        extent: bvh::Extent::Beginning,
+        ..ReadOptions::default()
+    };
+    let go_on = |_| std::ops::ControlFlow::Continue(());
+    let import = bvh::read_with(text.as_bytes(), options, go_on).expect("a beginning");
+    assert!(import.report.is_empty(), "{:?}", import.report);
+    let motion = import.document.motion.expect("frames");
+    assert_eq!((motion.frame_count, motion.values[3 * 199]), (200, 199.0));
+    assert!(
+        bvh::read(text.as_bytes()).is_err(),
+        "as a whole file it is impossible"
+    );
+}

@@ -1,0 +1,106 @@
+//! How light becomes colour: the one shading model that both back ends follow.
+//!
+//! The CPU back end calls these functions; the shader in `gpu/shader.wgsl` says the same in WGSL.
+//! Lit surfaces are shaded in linear light with a wrapped Lambert key light, an unshadowed fill
+//! light, a hemisphere of sky and bounce light, a broad highlight and a faint rim. The ground's
+//! pattern is mixed in encoded sRGB, where even steps look even.
+
+use glam::Vec3;
+
+use crate::color::Color;
+use crate::scene::Lighting;
+
+/// Taps of the shadow filter.
+pub(crate) const SHADOW_TAPS: usize = 32;
+
+/// Taps evenly spread over the unit disc: Vogel's sunflower spiral (Vogel 1979).
+pub(crate) fn shadow_disc() -> [(f32, f32); SHADOW_TAPS] {
+    const GOLDEN_ANGLE: f32 = 2.399_963_2;
+    std::array::from_fn(|i| {
+        let radius = ((i as f32 + 0.5) / SHADOW_TAPS as f32).sqrt();
+        let (sin, cos) = libm::sincosf(i as f32 * GOLDEN_ANGLE);
+        (cos * radius, sin * radius)
+    })
+}
+
+/// How much a shadow darkens red, green and blue of the ground: it keeps a little of the sky's blue.
+pub(crate) const SHADOW_TINT: [f32; 3] = [1.0, 0.96, 0.88];
+
+/// A body part darkens the ground within this many of its radii.
+pub(crate) const CONTACT_REACH: f32 = 4.0;
+
+/// How much of the sky a ball hides from a point of the ground, 0..=1, faded to nothing at
+/// [`CONTACT_REACH`] radii.
+///
+/// `offset` goes from the ball's middle to the point. A ball of radius r at distance d hides
+/// (r / d)^2 times the cosine of its direction from the zenith (Bunnell 2005, "Dynamic ambient
+/// occlusion and indirect lighting", with the ball as the emitter).
+#[inline]
+pub(crate) fn contact_window(offset: Vec3, radius: f32) -> f32 {
+    let d2 = offset.length_squared().max(radius * radius);
+    let d = d2.sqrt();
+    let hidden = radius * radius * (-offset.y).max(0.0) / (d2 * d);
+    let edge = (1.0 - d2 / (radius * radius * CONTACT_REACH * CONTACT_REACH)).max(0.0);
+    hidden.min(1.0) * edge * edge
+}
+
+/// How far the key light reaches round the edge of the lit half: it softens the line between day
+/// and night on a rounded body.
+pub(crate) const KEY_WRAP: f32 = 0.15;
+/// Strength of the highlight.
+pub(crate) const HIGHLIGHT: f32 = 0.10;
+/// Strength of the rim: the sky seen at grazing angles.
+pub(crate) const RIM: f32 = 0.16;
+/// Share of the shadow's softness that is used on bodies, where a wide filter would leak.
+pub(crate) const BODY_SOFTNESS: f32 = 0.4;
+
+/// The linear colour of a lit surface.
+///
+/// `normal`: unit, world. `to_eye`: unit, world. `key_light`: the share of the key light that
+/// arrives, 0..=1. `openness`: the share of the sky that is seen, 0..=1.
+#[inline]
+pub(crate) fn shade(
+    albedo: Color,
+    normal: Vec3,
+    to_eye: Vec3,
+    key_light: f32,
+    openness: f32,
+    lighting: &Lighting,
+) -> [f32; 3] {
+    let facing = normal.dot(lighting.key_direction);
+    let key = ((facing + KEY_WRAP) * (1.0 / (1.0 + KEY_WRAP))).max(0.0) * key_light;
+    let fill = normal.dot(lighting.fill_direction).max(0.0);
+    let up = normal.y * 0.5 + 0.5;
+    let half = (lighting.key_direction + to_eye).normalize_or(normal);
+    let glint = normal.dot(half).max(0.0);
+    let glint2 = glint * glint;
+    let glint4 = glint2 * glint2;
+    let glint16 = glint4 * glint4 * glint4 * glint4;
+    let highlight = glint16 * glint16 * HIGHLIGHT * key_light * facing.clamp(0.0, 1.0);
+    let grazing = 1.0 - normal.dot(to_eye).max(0.0);
+    let rim = grazing * grazing * grazing * RIM * up * openness;
+    let channel = |albedo: f32, key_c: f32, fill_c: f32, sky: f32, bounce: f32| {
+        let ambient = (bounce + (sky - bounce) * up) * openness;
+        albedo * (key_c * key + fill_c * fill * openness + ambient) + key_c * highlight + sky * rim
+    };
+    let Lighting {
+        key: k,
+        fill: f,
+        sky,
+        bounce,
+        ..
+    } = lighting;
+    [
+        channel(albedo.r, k.r, f.r, sky.r, bounce.r),
+        channel(albedo.g, k.g, f.g, sky.g, bounce.g),
+        channel(albedo.b, k.b, f.b, sky.b, bounce.b),
+    ]
+}
+
+/// The share of the sky that a body sees at a height above the ground: less close to it, most of
+/// all where it faces down. `reach` is the height from which on the ground is not felt.
+#[inline]
+pub(crate) fn openness_above_ground(height: f32, normal_y: f32, reach: f32) -> f32 {
+    let near = 1.0 - (height / reach).clamp(0.0, 1.0);
+    1.0 - near * near * (0.45 - 0.25 * normal_y)
+}

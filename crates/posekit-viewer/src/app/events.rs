@@ -1,0 +1,206 @@
+//! What comes in: clips that were read, files that were dropped, answers of dialogs.
+
+use std::path::PathBuf;
+
+use egui::ColorImage;
+
+use super::Viewer;
+#[cfg(not(target_arch = "wasm32"))]
+use crate::load::Input;
+use crate::load::{Chosen, Event, Listing, Purpose, Summary};
+use crate::panels::library::Preview;
+use crate::picture::Texture;
+use crate::state::clip::Clip;
+use crate::state::library::EntryState;
+use crate::state::notices::NoticeKind;
+use crate::state::session::ClipId;
+
+impl Viewer {
+    /// Takes in what was done away from the window.
+    pub(super) fn take_events(&mut self, ctx: &egui::Context) {
+        let now = ctx.input(|i| i.time);
+        for event in self.loader.take_events() {
+            match event {
+                Event::Begun {
+                    job,
+                    purpose,
+                    clip,
+                    thumbnail,
+                } => {
+                    let id = self.take_in(purpose, *clip);
+                    self.pictures.insert(id, Texture::new(ctx, *thumbnail));
+                    self.beginnings.insert(job, id);
+                }
+                Event::GivenUp { job, message } => {
+                    if let Some(id) = self.beginnings.remove(&job) {
+                        self.close(id);
+                    }
+                    if let Some(message) = message {
+                        self.notices.add(NoticeKind::Failure, message, now);
+                    }
+                }
+                Event::Read {
+                    job,
+                    purpose,
+                    clip,
+                    thumbnail,
+                } => {
+                    let begun = self.beginnings.remove(&job).map(Purpose::Replace);
+                    self.take_clip(ctx, begun.unwrap_or(purpose), *clip, *thumbnail);
+                }
+                Event::Robot(robot) => self.take_robot(*robot, now),
+                Event::Failed { message } => {
+                    self.notices.add(NoticeKind::Failure, message, now);
+                }
+                Event::Written { message } => self.notices.add(NoticeKind::Done, message, now),
+                Event::Checked { clip, findings } => {
+                    self.checking.remove(&clip);
+                    self.session.set_findings(clip, findings);
+                }
+                Event::Changed { clip } => self.tell_changed(clip, now),
+                Event::Chosen(chosen) => self.take_chosen(ctx, chosen),
+                Event::Summary(summary) => self.take_summary(ctx, *summary),
+                Event::FolderDone => {}
+            }
+        }
+    }
+
+    fn take_clip(
+        &mut self,
+        ctx: &egui::Context,
+        purpose: Purpose,
+        clip: Clip,
+        thumbnail: ColorImage,
+    ) {
+        let repaired = clip.report.first_repair().map(ToString::to_string);
+        let name = clip.name.clone();
+        let id = self.take_in(purpose, clip);
+        self.opened(ctx, id, thumbnail);
+        if let Some(repaired) = repaired {
+            let text = format!("{name} was repaired while it was read: {repaired}");
+            let now = ctx.input(|i| i.time);
+            self.notices.add(NoticeKind::Done, text, now);
+        }
+    }
+
+    fn take_in(&mut self, purpose: Purpose, clip: Clip) -> ClipId {
+        match purpose {
+            Purpose::Group(group) if self.groups_opened.insert(group) => self.session.open(clip),
+            Purpose::Group(_) | Purpose::Beside => self.session.open_beside(clip),
+            Purpose::Replace(id) => {
+                self.session.replace(id, clip);
+                id
+            }
+        }
+    }
+
+    /// What follows when a clip was opened or read again.
+    pub(super) fn opened(&mut self, ctx: &egui::Context, id: ClipId, thumbnail: ColorImage) {
+        let picture = Texture::new(ctx, thumbnail);
+        self.pictures.insert(id, picture);
+        let open = self.session.clips().iter().find(|open| open.id == id);
+        if let Some(clip) = open.map(|open| open.clip.clone()) {
+            self.checking.insert(id);
+            self.loader.check(id, clip);
+        }
+        self.watch_files();
+    }
+
+    /// Watches the files of the clips that are open now.
+    pub(super) fn watch_files(&self) {
+        #[cfg(not(target_arch = "wasm32"))]
+        self.watch.set(&self.session);
+    }
+
+    fn tell_changed(&mut self, clip: ClipId, now: f64) {
+        let open = self.session.clips().iter().find(|open| open.id == clip);
+        if let Some(open) = open {
+            let text = format!("{} has changed on disk", open.clip.name);
+            self.notices.add(NoticeKind::Changed(clip), text, now);
+        }
+    }
+
+    fn take_chosen(&mut self, ctx: &egui::Context, chosen: Chosen) {
+        match chosen {
+            Chosen::Inputs(inputs) => self.open_inputs(inputs),
+            Chosen::Folder(folder) => self.list_folder(ctx, folder),
+            Chosen::VideoPath(path) => self.export_to(path),
+        }
+    }
+
+    fn take_summary(&mut self, ctx: &egui::Context, summary: Summary) {
+        let state = match summary.outcome {
+            Ok(numbers) => {
+                let thumbnail = numbers.thumbnail.clone();
+                let picture = Texture::new(ctx, thumbnail);
+                EntryState::Ready(Preview { numbers, picture })
+            }
+            Err(why) => EntryState::Refused(why),
+        };
+        self.library.set_state(&summary.path, state);
+    }
+
+    /// Lists a server's clips in the library.
+    pub(super) fn take_listing(&mut self, listing: Listing) {
+        let paths = listing.clips.iter().map(|(path, _)| path.clone()).collect();
+        self.library
+            .list_named(listing.folder.into(), listing.clips);
+        self.loader.look_at(paths);
+    }
+
+    /// Lists a folder's clips in the library.
+    pub(super) fn list_folder(&mut self, ctx: &egui::Context, folder: PathBuf) {
+        #[cfg(not(target_arch = "wasm32"))]
+        {
+            let now = ctx.input(|i| i.time);
+            match crate::state::library::motion_files(&folder) {
+                Ok(paths) if paths.is_empty() => {
+                    let text = format!("There are no BVH files in {}", folder.display());
+                    self.notices.add(NoticeKind::Failure, text, now);
+                }
+                Ok(paths) => {
+                    self.library.list(folder, paths);
+                    let paths = self
+                        .library
+                        .entries
+                        .iter()
+                        .map(|entry| entry.path.clone())
+                        .collect();
+                    self.loader.look_at(paths);
+                }
+                Err(error) => {
+                    let text = format!("{}: {error}", folder.display());
+                    self.notices.add(NoticeKind::Failure, text, now);
+                }
+            }
+        }
+        #[cfg(target_arch = "wasm32")]
+        {
+            // A page sees no folders; it gets files by drop, dialog and address.
+            drop((ctx, folder));
+        }
+    }
+
+    /// Takes what was dropped onto the window.
+    pub(super) fn take_dropped(&mut self, ctx: &egui::Context) {
+        let dropped = ctx.input_mut(|i| std::mem::take(&mut i.raw.dropped_files));
+        if dropped.is_empty() {
+            return;
+        }
+        #[cfg(not(target_arch = "wasm32"))]
+        {
+            let mut inputs = Vec::new();
+            for file in dropped {
+                let path = file.path().to_owned();
+                if path.is_dir() {
+                    self.list_folder(ctx, path);
+                } else {
+                    inputs.push(Input::Path(path));
+                }
+            }
+            self.open_inputs(inputs);
+        }
+        #[cfg(target_arch = "wasm32")]
+        self.open_inputs(crate::web::dropped_inputs(&dropped));
+    }
+}

@@ -1,0 +1,189 @@
+//! Where the panels stand.
+
+use egui::{CentralPanel, Color32, Frame, Margin, Panel, Rect, RichText, Ui, Vec2};
+
+use super::Viewer;
+use crate::command::{self, Command};
+use crate::panels::inspector::Checking;
+use crate::panels::{Asked, curves, export, help, inspector, joints, library, notices, row};
+use crate::panels::{top_bar, transport, view};
+use crate::state::mode::Mode;
+use crate::theme::Palette;
+
+/// Under this width the inspector does not open by itself beside the other panels.
+const NARROW: f32 = 900.0;
+
+/// The joint tree is never lower than this.
+const JOINTS_LEAST: f32 = 230.0;
+
+impl Viewer {
+    /// Takes the keys that were pressed, unless somebody is typing.
+    pub(super) fn take_keys(&mut self, ui: &mut Ui, asked: &mut Asked) {
+        let busy = self.help_open || !matches!(self.export, export::ExportWindow::Closed);
+        if ui.ctx().text_edit_focused() {
+            return;
+        }
+        if busy {
+            // Windows over the view have the keys; the list closes with the key that opened it.
+            let pressed = ui.input_mut(command::pressed);
+            asked
+                .commands
+                .extend(pressed.into_iter().filter(|c| *c == Command::ToggleHelp));
+            return;
+        }
+        if self.take_keys_in_lab(ui) {
+            return;
+        }
+        if self.session.is_dragging() {
+            // While a handle is held there is one key: the one that lets it go without effect.
+            if ui.input_mut(|i| i.consume_key(egui::Modifiers::NONE, egui::Key::Escape)) {
+                self.session.cancel_drag();
+            }
+            return;
+        }
+        let copies = ui.input(|i| i.events.iter().any(|e| matches!(e, egui::Event::Copy)));
+        if copies {
+            asked.command(Command::CopyPicture);
+        }
+        asked.commands.extend(ui.input_mut(command::pressed));
+        if ui.input_mut(|i| i.consume_key(egui::Modifiers::NONE, egui::Key::Escape))
+            && !self.session.stop_stepping()
+        {
+            asked.command(Command::Deselect);
+        }
+    }
+
+    /// Shows all panels and the view.
+    pub(super) fn show_panels(&mut self, ui: &mut Ui, asked: &mut Asked) {
+        let is_narrow = ui.available_width() < NARROW;
+        let panel = Frame::NONE.fill(ui.visuals().panel_fill);
+        let sides = top_bar::Sides {
+            left: self.layout.left,
+            right: self.layout.right,
+        };
+        Panel::top("top")
+            .frame(panel.inner_margin(Margin::symmetric(8, 4)))
+            .exact_size(40.0)
+            .show(ui, |ui| top_bar::show(ui, &mut self.session, sides, asked));
+        if self.session.mode() == Mode::Lab {
+            self.show_lab(ui, asked);
+            return;
+        }
+        Panel::bottom("transport")
+            .frame(panel.inner_margin(Margin::symmetric(8, 2)))
+            .resizable(false)
+            .show(ui, |ui| transport::show(ui, &mut self.session, asked));
+        if self.layout.curves {
+            Panel::bottom("curves")
+                .frame(panel.inner_margin(Margin::symmetric(8, 6)))
+                .resizable(true)
+                .default_size(190.0)
+                .size_range(120.0..=480.0)
+                .show(ui, |ui| {
+                    curves::show(ui, &mut self.session, &mut self.curves)
+                });
+        }
+        if self.layout.left {
+            Panel::left("left")
+                .frame(panel.inner_margin(Margin::symmetric(8, 6)))
+                .resizable(true)
+                .default_size(256.0)
+                .size_range(200.0..=440.0)
+                .show(ui, |ui| self.show_left(ui, asked));
+        }
+        if self.layout.right && !(is_narrow && self.layout.left) {
+            Panel::right("right")
+                .frame(panel.inner_margin(Margin::symmetric(10, 6)))
+                .resizable(true)
+                .default_size(292.0)
+                .size_range(260.0..=440.0)
+                .show(ui, |ui| {
+                    let id = self.session.active_id();
+                    let checking = match id.is_some_and(|id| self.checking.contains(&id)) {
+                        true => Checking::Running,
+                        false => Checking::Done,
+                    };
+                    inspector::show(ui, &mut self.session, checking, asked);
+                });
+        }
+        CentralPanel::no_frame().show(ui, |ui| {
+            let rect = ui.available_rect_before_wrap();
+            view::show(ui, &mut self.session, &mut self.painter, asked);
+            self.show_over_view(ui, rect, asked);
+        });
+    }
+
+    fn show_left(&mut self, ui: &mut Ui, asked: &mut Asked) {
+        Panel::bottom("joints")
+            .frame(Frame::NONE)
+            .resizable(true)
+            .default_size(330.0)
+            .size_range(JOINTS_LEAST..=(ui.available_height() - 160.0).max(JOINTS_LEAST))
+            .show(ui, |ui| {
+                ui.add_space(4.0);
+                joints::show(ui, &mut self.session, &mut self.tree);
+            });
+        CentralPanel::no_frame().show(ui, |ui| {
+            library::show(
+                ui,
+                &self.session,
+                &mut self.library,
+                &self.pictures,
+                self.loader.jobs(),
+                asked,
+            );
+        });
+    }
+
+    pub(super) fn show_over_view(&mut self, ui: &Ui, rect: Rect, asked: &mut Asked) {
+        notices::show(ui, rect, &mut self.notices, asked);
+        let hovering = ui.input(|i| !i.raw.hovered_files.is_empty());
+        let palette = Palette::in_ui(ui);
+        if hovering {
+            let room = rect.shrink(16.0);
+            let painter = ui.painter();
+            painter.rect_filled(room, 12.0, palette.accent_soft.gamma_multiply(0.85));
+            let edge = egui::Stroke::new(2.0, palette.accent);
+            painter.rect_stroke(room, 12.0, edge, egui::StrokeKind::Inside);
+            let text = RichText::new("Drop to open").size(20.0);
+            let place = Rect::from_center_size(room.center(), Vec2::new(130.0, 30.0));
+            row::text_in(ui, place, text, palette.text);
+        }
+        let is_stage = self.session.mode() != Mode::Lab;
+        if is_stage && self.session.clips().is_empty() && self.loader.jobs().is_empty() && !hovering
+        {
+            let text = RichText::new("Drop a BVH file here, or open one with Ctrl+O").size(15.0);
+            let place = Rect::from_center_size(rect.center(), Vec2::new(330.0, 30.0));
+            row::text_in(ui, place, text, palette.quiet);
+        }
+    }
+
+    /// Shows the windows over everything.
+    pub(super) fn show_windows(&mut self, ctx: &egui::Context) {
+        if self.help_open {
+            self.help_open = help::show(ctx);
+        }
+        let (first, last) = self.session.transport.range();
+        match export::show(ctx, &mut self.export, last - first + 1) {
+            export::Answer::None => {}
+            export::Answer::Start => self.ask_where_to_export(),
+            export::Answer::Cancel => {
+                if let export::ExportWindow::Running(running) = &self.export {
+                    running.cancel();
+                }
+                self.export = export::ExportWindow::Closed;
+            }
+        }
+        if let export::ExportWindow::Running(running) = &self.export
+            && running.is_finished()
+        {
+            self.export = export::ExportWindow::Closed;
+        }
+    }
+}
+
+/// What the window is cleared with, before anything is drawn.
+#[must_use]
+pub(super) fn clear_color(visuals: &egui::Visuals) -> [f32; 4] {
+    Color32::to_normalized_gamma_f32(visuals.panel_fill)
+}

@@ -1,0 +1,337 @@
+//! The application: state, panels and work brought together.
+
+mod act;
+mod events;
+mod lab;
+mod layout;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
+
+use eframe::egui_wgpu::RenderState;
+use egui::Ui;
+use posekit::sample::{WalkConfig, walk};
+use posekit_render::render::RendererChoice;
+
+use crate::load::{Input, JobId, Listing, Loader, Purpose};
+use crate::panels::Asked;
+use crate::panels::arm_lab::LabPanel;
+use crate::panels::curves::CurvePanel;
+use crate::panels::export::ExportWindow;
+use crate::panels::joints::JointTree;
+use crate::panels::library::Preview;
+use crate::picture::painter::Painter;
+use crate::picture::thumbnail::thumbnail;
+use crate::picture::{Texture, to_color_image};
+use crate::state::arm::ArmLab;
+use crate::state::clip::Clip;
+use crate::state::library::Library;
+use crate::state::notices::Notices;
+use crate::state::session::{ClipId, Session};
+use crate::state::settings::{Settings, WindowLayout};
+use crate::theme;
+use crate::work::export::ExportOptions;
+
+/// Under this name the settings are kept.
+const SETTINGS_KEY: &str = "posekit";
+
+/// Time that passes without the window being drawn counts at most this much: after a pause of the
+/// machine the figure goes on where it was.
+const LONGEST_STEP_SECS: f64 = 0.25;
+
+/// What the viewer is started with.
+#[derive(Clone, Debug, Default)]
+pub struct ViewerOptions {
+    /// Files and folders to open. With none, a sample clip is shown.
+    pub paths: Vec<PathBuf>,
+    /// Clips that are in memory already.
+    pub inputs: Vec<Input>,
+    /// What draws the view.
+    pub renderer: RendererChoice,
+    /// Clips that a server offers, to be listed.
+    pub listing: Option<Listing>,
+}
+
+/// The viewer.
+#[derive(Debug)]
+pub struct Viewer {
+    session: Session,
+    lab: ArmLab,
+    lab_panel: LabPanel,
+    loader: Loader,
+    painter: Painter,
+    library: Library<Preview>,
+    pictures: BTreeMap<ClipId, Texture>,
+    checking: BTreeSet<ClipId>,
+    /// Clips of which only the first frames are here yet.
+    beginnings: BTreeMap<JobId, ClipId>,
+    /// Clips that were edited while they were checked.
+    to_check: BTreeSet<ClipId>,
+    tree: JointTree,
+    curves: CurvePanel,
+    notices: Notices,
+    layout: WindowLayout,
+    help_open: bool,
+    export: ExportWindow,
+    /// Options of the last export, and of one that waits for its file name.
+    export_options: ExportOptions,
+    groups_opened: BTreeSet<u32>,
+    next_group: u32,
+    /// The window's clock when the clip's clock was moved last.
+    last_tick_secs: Option<f64>,
+    #[cfg(not(target_arch = "wasm32"))]
+    watch: crate::work::watch::Watch,
+}
+
+impl Viewer {
+    /// A viewer in a window of egui. `graphics` is the window's device, if it has one.
+    #[must_use]
+    pub fn new(
+        ctx: &egui::Context,
+        graphics: Option<&RenderState>,
+        settings: &Settings,
+        options: ViewerOptions,
+    ) -> Self {
+        theme::install(ctx, settings.look);
+        let loader = Loader::new(ctx);
+        #[cfg(not(target_arch = "wasm32"))]
+        let watch = crate::work::watch::Watch::new(loader.outbox().clone());
+        let mut session = Session::new(settings.display.clone(), settings.look);
+        session.transport.at_end = settings.at_end;
+        let mut viewer = Self {
+            session,
+            lab: ArmLab::default(),
+            lab_panel: LabPanel::default(),
+            loader,
+            painter: Painter::new(ctx, graphics, options.renderer),
+            library: Library::default(),
+            pictures: BTreeMap::new(),
+            checking: BTreeSet::new(),
+            beginnings: BTreeMap::new(),
+            to_check: BTreeSet::new(),
+            tree: JointTree::default(),
+            curves: CurvePanel::default(),
+            notices: Notices::default(),
+            layout: settings.layout,
+            help_open: false,
+            export: ExportWindow::Closed,
+            export_options: ExportOptions::default(),
+            groups_opened: BTreeSet::new(),
+            next_group: 0,
+            last_tick_secs: None,
+            #[cfg(not(target_arch = "wasm32"))]
+            watch,
+        };
+        viewer.start(ctx, options);
+        #[cfg(not(target_arch = "wasm32"))]
+        if let (None, Some(folder)) = (&viewer.library.folder, &settings.folder)
+            && folder.is_dir()
+        {
+            viewer.list_folder(ctx, folder.clone());
+        }
+        viewer
+    }
+
+    /// The viewer of an eframe window, with what it remembers.
+    #[must_use]
+    pub fn of_window(context: &eframe::CreationContext<'_>, options: ViewerOptions) -> Self {
+        let kept = context
+            .storage
+            .and_then(|storage| eframe::get_value(storage, SETTINGS_KEY));
+        #[cfg(not(target_arch = "wasm32"))]
+        let settings: Settings = kept.unwrap_or_default();
+        #[cfg(target_arch = "wasm32")]
+        let settings: Settings = kept.unwrap_or_else(crate::web::first_settings);
+        let graphics = context.wgpu_render_state.as_ref();
+        Self::new(&context.egui_ctx, graphics, &settings, options)
+    }
+
+    fn start(&mut self, ctx: &egui::Context, options: ViewerOptions) {
+        let mut inputs = options.inputs;
+        if let Some(listing) = options.listing {
+            self.take_listing(listing);
+        }
+        for path in options.paths {
+            if path.is_dir() {
+                self.list_folder(ctx, path);
+            } else {
+                inputs.push(Input::Path(path));
+            }
+        }
+        if inputs.is_empty() {
+            let first = self.library.entries.first().map(|entry| entry.path.clone());
+            match first {
+                Some(path) => inputs.push(Input::Path(path)),
+                None => self.open_sample(ctx),
+            }
+        }
+        self.open_inputs(inputs);
+    }
+
+    fn open_sample(&mut self, ctx: &egui::Context) {
+        if let Ok(motion) = walk(&WalkConfig::default()) {
+            let clip = Clip::from_motion("Sample walk", motion);
+            let picture = to_color_image(&thumbnail(&clip));
+            let id = self.session.open(clip);
+            self.opened(ctx, id, picture);
+        }
+    }
+
+    /// Starts reading clips: the first that is read is opened, the others join it.
+    pub fn open_inputs(&mut self, inputs: Vec<Input>) {
+        let group = self.next_group;
+        self.next_group += 1;
+        for input in inputs {
+            self.loader.read(input, Purpose::Group(group));
+        }
+    }
+
+    /// The session, to look at.
+    #[must_use]
+    pub fn session(&self) -> &Session {
+        &self.session
+    }
+
+    /// The session, to change.
+    pub fn session_mut(&mut self) -> &mut Session {
+        &mut self.session
+    }
+
+    /// The arm lab, to look at.
+    #[must_use]
+    pub fn lab(&self) -> &ArmLab {
+        &self.lab
+    }
+
+    /// The arm lab, to change.
+    pub fn lab_mut(&mut self) -> &mut ArmLab {
+        &mut self.lab
+    }
+
+    /// Whether something is being read, checked or looked at.
+    #[must_use]
+    pub fn is_working(&self) -> bool {
+        !self.loader.jobs().is_empty() || !self.checking.is_empty() || self.loader.is_looking()
+    }
+
+    /// Whether the view's picture shows what it should, nothing being drawn.
+    #[must_use]
+    pub fn is_drawn(&self) -> bool {
+        !self.painter.is_busy()
+    }
+
+    /// The messages that are shown.
+    #[must_use]
+    pub fn notices(&self) -> &Notices {
+        &self.notices
+    }
+
+    /// The parts of the window that are open.
+    #[must_use]
+    pub fn layout(&self) -> WindowLayout {
+        self.layout
+    }
+
+    /// What is to be remembered.
+    #[must_use]
+    pub fn settings(&self) -> Settings {
+        Settings {
+            look: self.session.look(),
+            display: self.session.display().clone(),
+            at_end: self.session.transport.at_end,
+            layout: self.layout,
+            folder: self.library.folder.clone(),
+        }
+    }
+
+    /// Shows everything, in all of `ui`, and does what is asked.
+    pub fn show(&mut self, ui: &mut Ui) {
+        let ctx = ui.ctx().clone();
+        self.take_events(&ctx);
+        self.take_dropped(&ctx);
+        self.tick(&ctx);
+        self.session.follow_changes();
+        let mut asked = Asked {
+            curves_open: self.layout.curves,
+            ..Asked::default()
+        };
+        self.take_keys(ui, &mut asked);
+        self.show_panels(ui, &mut asked);
+        self.show_windows(&ctx);
+        for request in std::mem::take(&mut asked.requests) {
+            self.serve(&ctx, request);
+        }
+        for command in std::mem::take(&mut asked.commands) {
+            self.run(&ctx, command);
+            // What it has done is seen in the next picture, whatever else happens.
+            ctx.request_repaint();
+        }
+        self.check_edited();
+        self.plan_repaint(&ctx);
+    }
+
+    /// Checks the clips again that were edited.
+    fn check_edited(&mut self) {
+        self.to_check.extend(self.session.take_changed());
+        if self.session.is_dragging() {
+            return;
+        }
+        let free = |id: &ClipId| !self.checking.contains(id);
+        for id in self
+            .to_check
+            .clone()
+            .into_iter()
+            .filter(free)
+            .collect::<Vec<_>>()
+        {
+            self.to_check.remove(&id);
+            let open = self.session.clips().iter().find(|open| open.id == id);
+            if let Some(clip) = open.map(|open| open.clip.clone()) {
+                self.checking.insert(id);
+                self.loader.check(id, clip);
+            }
+        }
+    }
+
+    /// Moves the clip's clock by what passed since the last time.
+    fn tick(&mut self, ctx: &egui::Context) {
+        let now = ctx.input(|i| i.time);
+        if self.session.transport.is_playing() {
+            let passed = self.last_tick_secs.map_or(0.0, |before| now - before);
+            self.session
+                .transport
+                .advance(passed.min(LONGEST_STEP_SECS));
+            self.last_tick_secs = Some(now);
+        } else {
+            self.last_tick_secs = None;
+        }
+    }
+
+    /// The window is drawn again only when there is something new to see.
+    #[allow(
+        clippy::cast_possible_truncation,
+        reason = "seconds until a notice goes; a fraction of them is enough"
+    )]
+    fn plan_repaint(&mut self, ctx: &egui::Context) {
+        if self.session.transport.is_playing() && !self.painter.is_busy() {
+            ctx.request_repaint();
+        }
+        if let Some(secs) = self.notices.tick(ctx.input(|i| i.time)) {
+            ctx.request_repaint_after_secs(secs.max(0.01) as f32);
+        }
+    }
+}
+
+impl eframe::App for Viewer {
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        self.show(ui);
+    }
+
+    fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
+        layout::clear_color(visuals)
+    }
+
+    fn save(&mut self, storage: &mut dyn eframe::Storage) {
+        eframe::set_value(storage, SETTINGS_KEY, &self.settings());
+    }
+}

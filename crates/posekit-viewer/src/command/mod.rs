@@ -1,0 +1,234 @@
+//! Commands: everything that a key, a button or a menu can ask for, and the keys that ask for it.
+//!
+//! Keys are Blender's where it has one. egui does not tell the number pad from the number row, so
+//! both work, on laptops too.
+
+mod apply;
+mod bindings;
+
+use egui::{Key, KeyboardShortcut, Modifiers};
+use posekit_render::camera::View;
+
+pub use apply::{apply, apply_to_camera};
+pub use bindings::BINDINGS;
+
+use crate::gizmo::Tool;
+use crate::state::mode::Mode;
+use crate::state::session::Hold;
+
+/// Something the user can ask for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Command {
+    /// Start or stop.
+    TogglePlay,
+    /// Stop, and one frame on.
+    NextFrame,
+    /// Stop, and one frame back.
+    PreviousFrame,
+    /// Stop, and ten frames on.
+    TenFramesOn,
+    /// Stop, and ten frames back.
+    TenFramesBack,
+    /// To the first frame of the range.
+    GoToStart,
+    /// To the last frame of the range.
+    GoToEnd,
+    /// To the next finding.
+    NextFinding,
+    /// To the finding before.
+    PreviousFinding,
+    /// The range starts here.
+    RangeStart,
+    /// The range ends here.
+    RangeEnd,
+    /// The range is the whole clip.
+    ClearRange,
+    /// Loop, or stop at the end.
+    ToggleLoop,
+    /// Play faster.
+    Faster,
+    /// Play slower.
+    Slower,
+    /// Look from a named side.
+    Look(View),
+    /// Look from the other side.
+    LookBehind,
+    /// A lens, or parallel rays.
+    ToggleProjection,
+    /// Turn the view left.
+    TurnLeft,
+    /// Turn the view right.
+    TurnRight,
+    /// Turn the view up.
+    TurnUp,
+    /// Turn the view down.
+    TurnDown,
+    /// The selected joint into the picture.
+    FrameSelected,
+    /// Everything into the picture.
+    FrameAll,
+    /// Go along with the figure, or stay.
+    ToggleFollow,
+    /// Nearer.
+    ZoomIn,
+    /// Farther.
+    ZoomOut,
+    /// The rest pose, or the motion.
+    ToggleRest,
+    /// The next drawing style.
+    NextStyle,
+    /// Names of joints.
+    ToggleLabels,
+    /// Axes of joints.
+    ToggleAxes,
+    /// Trails.
+    ToggleTrails,
+    /// Ghosts.
+    ToggleGhosts,
+    /// Side by side, or overlaid.
+    ToggleCompare,
+    /// The parent of the selected joint.
+    SelectParent,
+    /// The first child of the selected joint.
+    SelectChild,
+    /// Nothing is selected.
+    Deselect,
+    /// The left side: clips and joints.
+    ToggleLeft,
+    /// The right side: the inspector.
+    ToggleRight,
+    /// The curves.
+    ToggleCurves,
+    /// Light or dark.
+    ToggleLook,
+    /// Ask for a file.
+    Open,
+    /// Ask for a folder.
+    OpenFolder,
+    /// The picture to the clipboard.
+    CopyPicture,
+    /// The picture into a file.
+    SavePicture,
+    /// The range into a BVH file.
+    SaveRange,
+    /// The range into a video.
+    ExportVideo,
+    /// This list.
+    ToggleHelp,
+    /// The window is for something else.
+    Mode(Mode),
+    /// The gizmo has other handles.
+    Tool(Tool),
+    /// The gizmo's axes lie otherwise.
+    NextSpace,
+    /// The gizmo goes in steps, or freely.
+    ToggleSnap,
+    /// Undo the last edit.
+    Undo,
+    /// Do the last edit again that was undone.
+    Redo,
+    /// The edited pose is kept for good.
+    KeepPose,
+    /// The edited pose is taken back.
+    ResetPose,
+    /// Joints are held where they are, or no longer.
+    TogglePin(Hold),
+    /// The figure is brought to the target once more.
+    Solve,
+    /// The target goes back to where the effector is.
+    ForgetTarget,
+    /// One step along the solver's way; the first shows it.
+    StepSolver,
+    /// One step back along the solver's way.
+    StepSolverBack,
+}
+
+/// A group of keys in the list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Group {
+    /// Time.
+    Playback,
+    /// The camera.
+    View,
+    /// What is shown.
+    Figure,
+    /// Modes, and editing poses.
+    Edit,
+    /// Windows and files.
+    Window,
+}
+
+/// A key and what it asks for.
+#[derive(Clone, Copy, Debug)]
+pub struct Binding {
+    /// What it asks for.
+    pub command: Command,
+    /// The key.
+    pub key: Key,
+    /// What is held with it.
+    pub modifiers: Modifiers,
+    /// Where it stands in the list.
+    pub group: Group,
+    /// What it does, for the list; empty for a second key of the same command.
+    pub says: &'static str,
+}
+
+impl Binding {
+    /// The key as the list shows it.
+    #[must_use]
+    pub fn shortcut_text(&self, mac: bool) -> String {
+        let names = if mac {
+            egui::ModifierNames::SYMBOLS
+        } else {
+            egui::ModifierNames::NAMES
+        };
+        let key = match self.key {
+            Key::Questionmark => return "?".to_owned(),
+            key => key,
+        };
+        let text = KeyboardShortcut::new(self.modifiers, key).format(&names, mac);
+        text.replace("ArrowRight", "\u{2192}")
+            .replace("ArrowLeft", "\u{2190}")
+    }
+}
+
+/// The first key of a command, as a tooltip shows it.
+#[must_use]
+pub fn shortcut_of(command: Command, mac: bool) -> Option<String> {
+    let binding = BINDINGS.iter().find(|binding| binding.command == command)?;
+    Some(binding.shortcut_text(mac))
+}
+
+/// The commands whose keys were pressed just now, in the order in which they were.
+#[must_use]
+pub fn pressed(input: &mut egui::InputState) -> Vec<Command> {
+    let mut commands = Vec::new();
+    input.events.retain(|event| {
+        let egui::Event::Key {
+            key,
+            pressed: true,
+            modifiers,
+            ..
+        } = event
+        else {
+            return true;
+        };
+        // What was held when the key went down: by now it may be let go again.
+        let asked = BINDINGS.iter().find(|b| b.is_meant(*key, *modifiers));
+        commands.extend(asked.map(|binding| binding.command));
+        asked.is_none()
+    });
+    commands
+}
+
+impl Binding {
+    /// Whether a key with what was held beside it is this one.
+    fn is_meant(&self, key: Key, held: Modifiers) -> bool {
+        // Where the character itself needs shift on some keyboards, shift says nothing.
+        let typed_with_shift = matches!(self.key, Key::Plus | Key::Questionmark);
+        self.key == key
+            && (typed_with_shift || held.shift == self.modifiers.shift)
+            && held.alt == self.modifiers.alt
+            && held.command == self.modifiers.command
+    }
+}

@@ -1,0 +1,110 @@
+//! The files of this machine.
+
+use std::io::Read as _;
+use std::path::{Path, PathBuf};
+
+use super::job::{self, Opened, Reading, SMALL_BYTES, Stop};
+use super::{Event, Input, Outbox, Progress, Summary, SummaryNumbers};
+use crate::state::clip::Source;
+
+/// How much of a file is read at once: little enough to be stopped between.
+const PIECE_BYTES: usize = 4 << 20;
+
+/// Files larger than this are not opened just to make a library's preview.
+const PREVIEW_LIMIT_BYTES: u64 = 64 << 20;
+
+/// Reads a clip and hands it in.
+pub(super) fn read(reading: &Reading, input: &Input) {
+    reading.hand_in(read_input(reading, input));
+}
+
+fn read_input(reading: &Reading, input: &Input) -> Result<Opened, Stop> {
+    let name = job::name_of(input);
+    match input {
+        Input::Path(path) => {
+            let bytes = read_file(reading, path, &name)?;
+            reading.open(&name, Source::File(path.clone()), &bytes)
+        }
+        Input::Bytes { bytes, .. } => {
+            reading.show_beginning(&name, &Source::Bytes, bytes);
+            reading.open(&name, Source::Bytes, bytes)
+        }
+    }
+}
+
+/// Reads a file piece by piece: the first half of the progress.
+fn read_file(reading: &Reading, path: &Path, name: &str) -> Result<Vec<u8>, Stop> {
+    let failed =
+        |error: std::io::Error| Stop::Failed(format!("{}: {}", path.display(), plain(&error)));
+    let metadata = std::fs::metadata(path).map_err(failed)?;
+    if metadata.is_dir() {
+        return Err(Stop::Failed(format!(
+            "{}: is a folder, not a file",
+            path.display()
+        )));
+    }
+    let mut file = std::fs::File::open(path).map_err(failed)?;
+    let length = metadata.len();
+    reading.progress.set_total(2 * length);
+    let mut bytes = Vec::with_capacity(usize::try_from(length).unwrap_or(0).min(1 << 31));
+    loop {
+        if reading.progress.is_cancelled() {
+            return Err(Stop::Cancelled);
+        }
+        let before = bytes.len();
+        let piece = file
+            .by_ref()
+            .take(PIECE_BYTES as u64)
+            .read_to_end(&mut bytes);
+        piece.map_err(failed)?;
+        if bytes.len() == before {
+            return Ok(bytes);
+        }
+        reading.progress.set_done(bytes.len() as u64);
+        if length > SMALL_BYTES {
+            if before == 0 {
+                reading.show_beginning(name, &Source::File(path.to_owned()), &bytes);
+            }
+            reading.outbox.wake();
+        }
+    }
+}
+
+/// An operating system's message without its number.
+fn plain(error: &std::io::Error) -> String {
+    match error.kind() {
+        std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
+        std::io::ErrorKind::PermissionDenied => "reading it is not permitted".to_owned(),
+        _ => error.to_string(),
+    }
+}
+
+/// Looks at files one after the other.
+pub(super) fn look_at(paths: &[PathBuf], progress: &Progress, outbox: &Outbox) {
+    for path in paths {
+        if progress.is_cancelled() {
+            return;
+        }
+        let summary = Summary {
+            path: path.clone(),
+            outcome: summarize(path),
+        };
+        if progress.is_cancelled() || !outbox.send(Event::Summary(Box::new(summary))) {
+            return;
+        }
+    }
+    progress.finish();
+    outbox.send(Event::FolderDone);
+}
+
+fn summarize(path: &Path) -> Result<SummaryNumbers, String> {
+    let metadata = std::fs::metadata(path).map_err(|error| plain(&error))?;
+    if metadata.len() > PREVIEW_LIMIT_BYTES {
+        return Err(format!(
+            "{} MB: opened only when asked",
+            metadata.len() >> 20
+        ));
+    }
+    let bytes = std::fs::read(path).map_err(|error| plain(&error))?;
+    job::summarize(&bytes)
+}

@@ -1,0 +1,199 @@
+//! The work itself: bytes to clips, clips to summaries. Where the bytes come from is the business of
+//! `disk` and `page`.
+
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::sync::Arc;
+
+use posekit_formats::bvh::{self, Extent, ReadOptions};
+use posekit_formats::report::ReadErrorKind;
+
+use super::{Event, Input, JobId, Outbox, Progress, Purpose, SummaryNumbers};
+use crate::picture::thumbnail::thumbnail;
+use crate::picture::to_color_image;
+use crate::state::arm::Robot;
+use crate::state::clip::{Clip, Source};
+
+/// A file this small has no progress to show.
+pub(super) const SMALL_BYTES: u64 = 4 << 20;
+
+/// As much of a large file is shown before the rest is read: some hundred frames, read in a few
+/// hundredths of a second.
+const BEGINNING_BYTES: usize = 1 << 20;
+
+/// What a file holds.
+pub(super) enum Opened {
+    Clip(Box<Clip>),
+    Robot(Box<Robot>),
+}
+
+/// Whether a file says that it is a robot's: by its name, or because it is XML, which motions are not.
+fn is_robot(name: &str, bytes: &[u8]) -> bool {
+    let has_name = Path::new(name)
+        .extension()
+        .is_some_and(|extension| extension.eq_ignore_ascii_case("urdf"));
+    let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+    has_name || text.trim_ascii_start().first() == Some(&b'<')
+}
+
+/// Why a clip was not read.
+pub(super) enum Stop {
+    Cancelled,
+    Failed(String),
+}
+
+pub(super) fn name_of(input: &Input) -> String {
+    match input {
+        #[cfg(target_arch = "wasm32")]
+        Input::Path(address) => super::page::name_at(address),
+        #[cfg(not(target_arch = "wasm32"))]
+        Input::Path(path) => {
+            let name = path.file_name().unwrap_or(path.as_os_str());
+            name.to_string_lossy().into_owned()
+        }
+        Input::Bytes { name, .. } => name.clone(),
+        #[cfg(target_arch = "wasm32")]
+        Input::Browser(file) => file.name(),
+    }
+}
+
+/// A reading that is going on, seen from where it runs.
+#[derive(Debug)]
+pub(super) struct Reading {
+    pub(super) job: JobId,
+    pub(super) purpose: Purpose,
+    pub(super) progress: Arc<Progress>,
+    pub(super) outbox: Outbox,
+}
+
+impl Reading {
+    /// Hands in what became of it.
+    pub(super) fn hand_in(&self, outcome: Result<Opened, Stop>) {
+        let job = self.job;
+        match outcome {
+            Ok(Opened::Robot(robot)) => {
+                self.outbox.send(Event::Robot(robot));
+            }
+            Ok(Opened::Clip(clip)) => {
+                let thumbnail = Box::new(to_color_image(&thumbnail(&clip)));
+                self.outbox.send(Event::Read {
+                    job,
+                    purpose: self.purpose,
+                    clip,
+                    thumbnail,
+                });
+            }
+            Err(stop) => {
+                let message = match stop {
+                    Stop::Failed(message) => Some(message),
+                    Stop::Cancelled => None,
+                };
+                self.outbox.send(Event::GivenUp { job, message });
+            }
+        }
+        // The job ends only after its outcome is on its way: a window between the two would show
+        // neither the job nor its clip. The second waking takes the job's row away.
+        self.progress.finish();
+        self.outbox.wake();
+    }
+
+    /// Hands in the first frames of a large file, so that there is something to see while the rest
+    /// is read. Where they make no clip, the whole file will tell why.
+    pub(super) fn show_beginning(&self, name: &str, source: &Source, bytes: &[u8]) {
+        // A file that is read again is on the screen already.
+        let replaces = matches!(self.purpose, Purpose::Replace(_));
+        if replaces || (bytes.len() as u64) < SMALL_BYTES {
+            return;
+        }
+        let Some(clip) = beginning(name, source, bytes) else {
+            return;
+        };
+        let thumbnail = Box::new(to_color_image(&thumbnail(&clip)));
+        self.outbox.send(Event::Begun {
+            job: self.job,
+            purpose: self.purpose,
+            clip: Box::new(clip),
+            thumbnail,
+        });
+    }
+
+    /// What the bytes of a file hold: a robot, or a clip as [`clip_of`](Self::clip_of) reads it.
+    pub(super) fn open(&self, name: &str, source: Source, bytes: &[u8]) -> Result<Opened, Stop> {
+        if is_robot(name, bytes) {
+            let robot =
+                Robot::read(name, bytes).map_err(|why| Stop::Failed(format!("{name}: {why}")))?;
+            return Ok(Opened::Robot(Box::new(robot)));
+        }
+        let clip = self.clip_of(name, source, bytes)?;
+        Ok(Opened::Clip(Box::new(clip)))
+    }
+
+    /// The clip in the bytes of its file: the second half of the progress. `name` is for messages and
+    /// the list.
+    fn clip_of(&self, name: &str, source: Source, bytes: &[u8]) -> Result<Clip, Stop> {
+        let failed = |why: String| Stop::Failed(format!("{name}: {why}"));
+        let length = bytes.len() as u64;
+        let is_large = length > SMALL_BYTES;
+        self.progress.set_total(2 * length);
+        let step = |done: usize| {
+            self.progress.set_done(length + done as u64);
+            if is_large {
+                self.outbox.wake();
+            }
+            if self.progress.is_cancelled() {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        };
+        let import = bvh::read_with(bytes, ReadOptions::default(), step).map_err(|error| {
+            if error.kind == ReadErrorKind::Cancelled {
+                Stop::Cancelled
+            } else {
+                failed(error.to_string())
+            }
+        })?;
+        Clip::from_bvh(name, source, import).map_err(|error| failed(error.to_string()))
+    }
+}
+
+/// The clip of a file's first [`BEGINNING_BYTES`], if there is a whole frame in them.
+fn beginning(name: &str, source: &Source, bytes: &[u8]) -> Option<Clip> {
+    let head = &bytes[..bytes.len().min(BEGINNING_BYTES)];
+    let whole_lines = head.iter().rposition(|byte| *byte == b'\n')?;
+    let options = ReadOptions {
+        extent: Extent::Beginning,
+        ..ReadOptions::default()
+    };
+    let import =
+        bvh::read_with(&head[..whole_lines], options, |_| ControlFlow::Continue(())).ok()?;
+    let clip = Clip::from_bvh(name, source.clone(), import).ok()?;
+    (clip.frame_count() > 0).then_some(clip)
+}
+
+/// Reads a clip at once, without progress: for tests and for small things.
+///
+/// # Errors
+/// What is wrong with the bytes, for people.
+pub fn read_clip(name: &str, bytes: &[u8]) -> Result<Clip, String> {
+    let import = bvh::read(bytes).map_err(|error| format!("{name}: {error}"))?;
+    Clip::from_bvh(name, Source::Bytes, import).map_err(|error| format!("{name}: {error}"))
+}
+
+/// What the library says of a clip in these bytes.
+///
+/// # Errors
+/// What is wrong with the bytes, for people.
+pub(super) fn summarize(bytes: &[u8]) -> Result<SummaryNumbers, String> {
+    if is_robot("", bytes) {
+        return Err("a robot, for the arm lab".to_owned());
+    }
+    let import = bvh::read(bytes).map_err(|error| error.to_string())?;
+    let clip = Clip::from_bvh("", Source::Bytes, import).map_err(|error| error.to_string())?;
+    Ok(SummaryNumbers {
+        duration_secs: clip.motion.duration_secs(),
+        fps: clip.fps(),
+        joint_count: clip.skeleton().joint_count(),
+        thumbnail: to_color_image(&thumbnail(&clip)),
+    })
+}

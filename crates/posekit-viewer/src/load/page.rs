@@ -1,0 +1,244 @@
+//! The files of a page: those that were given to the browser, and those of the page's own origin.
+//!
+//! Bytes come in pieces, with progress, and can be stopped between two of them; while a piece is
+//! waited for the page goes on.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use js_sys::{Array, Promise, Reflect, Uint8Array};
+use wasm_bindgen::{JsCast as _, JsValue};
+use wasm_bindgen_futures::{JsFuture, spawn_local};
+use web_sys::{ReadableStream, ReadableStreamDefaultReader, Response, Url};
+
+use super::job::{self, Reading, SMALL_BYTES, Stop};
+use super::{Event, Input, Listing, Outbox, Progress, Summary, thread};
+use crate::state::clip::Source;
+use crate::web;
+
+/// Clips larger than this are not fetched just to make a library's preview.
+const PREVIEW_LIMIT_BYTES: u64 = 8 << 20;
+
+/// This much is fetched for a library's previews in all.
+const PREVIEW_BUDGET_BYTES: u64 = 128 << 20;
+
+/// Between two previews the page has this long for itself.
+const PREVIEW_PAUSE_MS: i32 = 40;
+
+/// How often one who waits for a piece looks whether it is still wanted.
+const LOOK_MS: i32 = 150;
+
+/// Reads a clip and hands it in.
+pub(super) fn read(reading: Reading, input: Input) {
+    spawn_local(async move {
+        let name = job::name_of(&input);
+        let source = match &input {
+            Input::Path(address) => Source::File(address.clone()),
+            Input::Browser(_) | Input::Bytes { .. } => Source::Bytes,
+        };
+        let watch = Watch {
+            progress: &reading.progress,
+            began: &|bytes| reading.show_beginning(&name, &source, bytes),
+            grew: &|| reading.outbox.wake(),
+        };
+        let fetched = match &input {
+            Input::Path(address) => fetch(address, None, &watch).await,
+            Input::Browser(file) => stream(&file.stream(), exact(file.size()), &watch).await,
+            Input::Bytes { bytes, .. } => Ok(bytes.to_vec()),
+        };
+        match fetched {
+            Ok(bytes) => thread::start(move || {
+                reading.hand_in(reading.open(&name, source, &bytes));
+            }),
+            Err(Stop::Failed(why)) => {
+                reading.hand_in(Err(Stop::Failed(format!("{name}: {why}"))));
+            }
+            Err(Stop::Cancelled) => reading.hand_in(Err(Stop::Cancelled)),
+        }
+    });
+}
+
+/// Who is told while bytes come in.
+struct Watch<'a> {
+    progress: &'a Progress,
+    /// Told once, of a large file, with what is there of it.
+    began: &'a dyn Fn(&[u8]),
+    /// Told after every piece of a large file.
+    grew: &'a dyn Fn(),
+}
+
+/// Looks at clips one after the other.
+pub(super) fn look_at(addresses: Vec<PathBuf>, progress: Arc<Progress>, outbox: Outbox) {
+    spawn_local(async move {
+        let mut fetched = 0;
+        for path in addresses {
+            web::pause(PREVIEW_PAUSE_MS).await;
+            let outcome = if fetched < PREVIEW_BUDGET_BYTES {
+                let watch = Watch {
+                    // Its own: the list's tells whether the list is still wanted.
+                    progress: &Progress::default(),
+                    began: &|_| {},
+                    grew: &|| {},
+                };
+                match fetch(&path, Some(PREVIEW_LIMIT_BYTES), &watch).await {
+                    Ok(bytes) => {
+                        fetched += bytes.len() as u64;
+                        job::summarize(&bytes)
+                    }
+                    Err(Stop::Failed(why)) => Err(why),
+                    Err(Stop::Cancelled) => return,
+                }
+            } else {
+                Err("opened only when asked".to_owned())
+            };
+            let summary = Box::new(Summary { path, outcome });
+            if progress.is_cancelled() || !outbox.send(Event::Summary(summary)) {
+                return;
+            }
+        }
+        progress.finish();
+        outbox.send(Event::FolderDone);
+    });
+}
+
+/// The clips that a server offers, out of its list as the page got it: nothing if there are none.
+pub(crate) fn listing_of(list: &JsValue) -> Option<Listing> {
+    let field = |value: &JsValue, name: &str| Reflect::get(value, &JsValue::from_str(name)).ok();
+    let clips = Array::from(&field(list, "clips")?);
+    let clips: Vec<_> = clips
+        .iter()
+        .filter_map(|clip| {
+            let name = field(&clip, "name")?.as_string()?;
+            let address = field(&clip, "url")?.as_string()?;
+            Some((PathBuf::from(address), name))
+        })
+        .collect();
+    let folder = field(list, "folder").and_then(|folder| folder.as_string());
+    (!clips.is_empty()).then(|| Listing {
+        clips,
+        folder: folder.unwrap_or_else(|| "Clips".to_owned()),
+    })
+}
+
+/// What the file at an address is called.
+pub(super) fn name_at(address: &Path) -> String {
+    let address = address.to_string_lossy();
+    let path = address.split(['?', '#']).next().unwrap_or_default();
+    let last = path.rsplit('/').next().unwrap_or_default();
+    match js_sys::decode_uri_component(last) {
+        Ok(name) => name.into(),
+        Err(_no_such_code) => last.to_owned(),
+    }
+}
+
+/// Fetches a file of the page's own origin, if it is not larger than `limit`.
+async fn fetch(address: &Path, limit: Option<u64>, watch: &Watch<'_>) -> Result<Vec<u8>, Stop> {
+    let response = response_of(&address.to_string_lossy()).await?;
+    let length = response.headers().get("content-length").ok().flatten();
+    let length = length.and_then(|length| length.parse().ok());
+    let Some(body) = response.body() else {
+        return Ok(Vec::new());
+    };
+    if let (Some(limit), Some(length)) = (limit, length)
+        && length > limit
+    {
+        // The rest of it is not sent.
+        drop(body.cancel());
+        let why = format!("{} MB: opened only when asked", length >> 20);
+        return Err(Stop::Failed(why));
+    }
+    stream(&body, length, watch).await
+}
+
+async fn response_of(address: &str) -> Result<Response, Stop> {
+    let failed = |why: &str| Stop::Failed(why.to_owned());
+    let (Some(window), Some(whole)) = (web_sys::window(), whole_address(address)) else {
+        return Err(failed("this is no address"));
+    };
+    // Another's file would come with this page's authority: it is not fetched.
+    if window.location().origin().ok() != Some(whole.origin()) {
+        return Err(failed("only files of this page's own origin are opened"));
+    }
+    let response = JsFuture::from(window.fetch_with_str(&whole.href()))
+        .await
+        .map_err(|_unreachable| failed("it could not be fetched: the server does not answer"))?;
+    let response: Response = response.unchecked_into();
+    match response.status() {
+        _ if response.ok() => Ok(response),
+        404 => Err(failed("there is no such file on the server")),
+        status => Err(failed(&format!("the server refused it ({status})"))),
+    }
+}
+
+fn whole_address(address: &str) -> Option<Url> {
+    let base = web_sys::window()?.location().href().ok()?;
+    Url::new_with_base(address, &base).ok()
+}
+
+/// Collects a stream's bytes. `length` is what the other side says there will be.
+async fn stream(
+    body: &ReadableStream,
+    length: Option<u64>,
+    watch: &Watch<'_>,
+) -> Result<Vec<u8>, Stop> {
+    let broken = |_error: JsValue| Stop::Failed("it broke off while it was read".to_owned());
+    let too_large = || Stop::Failed("it is larger than a page's memory".to_owned());
+    let length = length.unwrap_or(0);
+    // The other half is for reading what was fetched.
+    watch.progress.set_total(2 * length);
+    let reader: ReadableStreamDefaultReader = body.get_reader().unchecked_into();
+    let mut bytes: Vec<u8> = Vec::new();
+    let promised = usize::try_from(length).map_err(|_over| too_large())?;
+    bytes
+        .try_reserve_exact(promised)
+        .map_err(|_no_memory| too_large())?;
+    loop {
+        let Some(piece) = wanted(reader.read(), watch.progress).await else {
+            drop(reader.cancel());
+            return Err(Stop::Cancelled);
+        };
+        let piece = piece.map_err(broken)?;
+        let value = Reflect::get(&piece, &JsValue::from_str("value")).map_err(broken)?;
+        if value.is_undefined() {
+            return Ok(bytes);
+        }
+        let value: Uint8Array = value.unchecked_into();
+        let start = bytes.len();
+        let added = value.length() as usize;
+        bytes.try_reserve(added).map_err(|_no_memory| too_large())?;
+        bytes.resize(start + added, 0);
+        value.copy_to(&mut bytes[start..]);
+        watch.progress.set_done(bytes.len() as u64);
+        if bytes.len() as u64 > SMALL_BYTES {
+            if start as u64 <= SMALL_BYTES {
+                (watch.began)(&bytes);
+            }
+            (watch.grew)();
+        }
+    }
+}
+
+/// Waits for a promise for as long as its outcome is wanted: `None` when it is not any more.
+async fn wanted(promise: Promise, progress: &Progress) -> Option<Result<JsValue, JsValue>> {
+    loop {
+        if progress.is_cancelled() {
+            return None;
+        }
+        let over = JsValue::NULL;
+        let first = Promise::race(&Array::of2(&promise, &web::after(LOOK_MS, &over)));
+        let first = JsFuture::from(first).await;
+        if !matches!(&first, Ok(value) if value.is_null()) {
+            return Some(first);
+        }
+    }
+}
+
+/// A file's size, which the browser gives as a floating-point number.
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a whole number of bytes, far below 2^53"
+)]
+fn exact(size: f64) -> Option<u64> {
+    (size >= 0.0).then_some(size as u64)
+}

@@ -1,0 +1,99 @@
+//! The arm lab: a robot in the middle, its joints at the left, what its tip does at the right, and the
+//! mathematics below.
+
+mod below;
+mod formula;
+mod jacobian;
+mod joints;
+mod matrices;
+mod numbers;
+mod strip;
+mod view;
+
+use egui::{CentralPanel, Frame, Margin, Panel, Rect, Ui};
+use posekit::skeleton::JointId;
+
+use super::Asked;
+use crate::picture::painter::Painter;
+use crate::state::arm::ArmLab;
+use crate::state::arm::factors::Detail;
+use crate::state::display::Look;
+
+/// Under this width the right side does not open beside the left one.
+const NARROW: f32 = 900.0;
+
+/// Which sides are open.
+#[derive(Clone, Copy, Debug)]
+pub struct Sides {
+    /// The joints.
+    pub left: bool,
+    /// The tip's numbers.
+    pub right: bool,
+}
+
+/// What is shown below the view.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Table {
+    /// The planar arm's formula; the matrices for other robots.
+    #[default]
+    Formula,
+    /// The factors of the map from the tip to the world.
+    Matrices,
+    /// The Jacobian.
+    Jacobian,
+    /// Nothing: more room for the view.
+    Closed,
+}
+
+/// What the lab's panels remember.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct LabPanel {
+    /// What is shown below the view.
+    pub table: Table,
+    /// How finely the product is told.
+    pub detail: Detail,
+    /// The joint whose slider the pointer is over.
+    pub pointed: Option<JointId>,
+    /// Whether the last search for another way found none.
+    pub no_other_way: bool,
+}
+
+/// Shows the lab in all the room there is. Returns where the view is.
+pub fn show(
+    ui: &mut Ui,
+    (lab, panel, painter): (&mut ArmLab, &mut LabPanel, &mut Painter),
+    (sides, look): (Sides, Look),
+    asked: &mut Asked,
+) -> Rect {
+    let before = lab.version();
+    let is_narrow = ui.available_width() < NARROW;
+    let ground = Frame::NONE.fill(ui.visuals().panel_fill);
+    let side = ground.inner_margin(Margin::symmetric(10, 6));
+    if sides.left {
+        Panel::left("lab joints")
+            .frame(side)
+            .resizable(true)
+            .default_size(272.0)
+            .size_range(230.0..=440.0)
+            .show(ui, |ui| joints::show(ui, lab, panel, asked));
+    }
+    if sides.right && !(is_narrow && sides.left) {
+        Panel::right("lab numbers")
+            .frame(side)
+            .resizable(true)
+            .default_size(292.0)
+            .size_range(260.0..=440.0)
+            .show(ui, |ui| numbers::show(ui, lab, panel));
+    }
+    below::show(ui, lab, panel);
+    let shown = CentralPanel::no_frame().show(ui, |ui| {
+        let rect = ui.available_rect_before_wrap();
+        view::show(ui, (&mut *lab, *panel, painter), look, asked);
+        rect
+    });
+    // What was shown before it changed is shown again as it is now.
+    if lab.version() != before {
+        ui.ctx().request_repaint();
+    }
+    shown.inner
+}

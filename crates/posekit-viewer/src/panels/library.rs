@@ -1,0 +1,368 @@
+//! The library: the clips that are open, and those of a folder.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use egui::{Color32, Rect, RichText, ScrollArea, Ui, pos2, vec2};
+use posekit_render::theme::CharacterColors;
+
+use super::{Asked, Request, row, tip};
+use crate::command::Command;
+use crate::icons::{self, Icon, icon_button, sized_icon};
+use crate::load::{Job, SummaryNumbers};
+use crate::picture::Texture;
+use crate::state::library::{EntryState, Library};
+use crate::state::session::{ClipId, OpenClip, Session};
+use crate::theme::{GAP, Palette};
+
+/// Height of a row with a preview picture.
+const CLIP_ROW: f32 = 52.0;
+
+/// A clip of the folder, as the library shows it.
+#[derive(Clone, Debug)]
+pub struct Preview {
+    /// Its numbers.
+    pub numbers: SummaryNumbers,
+    /// Its picture.
+    pub picture: Texture,
+}
+
+/// Shows the library.
+pub fn show(
+    ui: &mut Ui,
+    session: &Session,
+    library: &mut Library<Preview>,
+    pictures: &BTreeMap<ClipId, Texture>,
+    jobs: &[Job],
+    asked: &mut Asked,
+) {
+    row::heading(ui, "Clips", |ui| {
+        // A page sees no folders.
+        let folder = tip("Open a folder", Command::OpenFolder);
+        if cfg!(not(target_arch = "wasm32")) && icon_button(ui, Icon::Folder, &folder).clicked() {
+            asked.command(Command::OpenFolder);
+        }
+        if icon_button(ui, Icon::File, &tip("Open files", Command::Open)).clicked() {
+            asked.command(Command::Open);
+        }
+    });
+    search(ui, &mut library.filter, "Filter clips");
+    ui.add_space(GAP);
+    ScrollArea::vertical()
+        .id_salt("clips")
+        .auto_shrink([false, false])
+        .show(ui, |ui| {
+            ui.spacing_mut().item_spacing.y = 2.0;
+            for job in jobs {
+                reading(ui, job);
+            }
+            for open in session
+                .clips()
+                .iter()
+                .filter(|open| library.passes(&open.clip.name))
+            {
+                open_clip(ui, session, open, pictures.get(&open.id), asked);
+            }
+            if session.clips().is_empty() && jobs.is_empty() {
+                row::empty_note(ui, "Nothing is open. Drop a BVH file here.");
+            }
+            folder(ui, session, library, asked);
+        });
+}
+
+/// A field to type a filter into.
+pub fn search(ui: &mut Ui, filter: &mut String, hint: &str) {
+    let palette = Palette::in_ui(ui);
+    let edit = egui::TextEdit::singleline(filter)
+        .hint_text(RichText::new(hint).color(palette.quiet))
+        .desired_width(f32::INFINITY)
+        .margin(egui::Margin {
+            left: 28,
+            right: 24,
+            top: 4,
+            bottom: 4,
+        });
+    let response = ui.add(edit);
+    let rect = response.rect;
+    let glass = Rect::from_center_size(pos2(rect.left() + 15.0, rect.center().y), vec2(13.0, 13.0));
+    icons::draw(ui.painter(), Icon::Search, glass, palette.quiet);
+    if !filter.is_empty() {
+        let place =
+            Rect::from_center_size(pos2(rect.right() - 13.0, rect.center().y), vec2(20.0, 20.0));
+        let mut over = ui.new_child(egui::UiBuilder::new().max_rect(place));
+        if sized_icon(&mut over, Icon::Close, "Show all", false, place.size()).clicked() {
+            filter.clear();
+        }
+    }
+    if response.has_focus() && ui.input(|i| i.key_pressed(egui::Key::Escape)) {
+        filter.clear();
+        response.surrender_focus();
+    }
+}
+
+/// A file that is being read.
+fn reading(ui: &mut Ui, job: &Job) {
+    let palette = Palette::in_ui(ui);
+    let room = vec2(ui.available_width(), CLIP_ROW);
+    // From the right, so that what is left for the name is known, and the panel does not grow.
+    let layout = egui::Layout::right_to_left(egui::Align::Center);
+    ui.allocate_ui_with_layout(room, layout, |ui| {
+        if icon_button(ui, Icon::Close, "Stop reading").clicked() {
+            job.progress.cancel();
+        }
+        ui.vertical(|ui| {
+            ui.add_space(2.0 * GAP);
+            ui.add(egui::Label::new(format!("Reading {}", job.name)).truncate());
+            let bar = egui::ProgressBar::new(job.progress.fraction().unwrap_or(0.0));
+            ui.add(bar.desired_height(6.0).fill(palette.accent));
+        });
+    });
+}
+
+fn open_clip(
+    ui: &mut Ui,
+    session: &Session,
+    open: &OpenClip,
+    picture: Option<&Texture>,
+    asked: &mut Asked,
+) {
+    let chosen = session.active_id() == Some(open.id);
+    let clip = &open.clip;
+    let (rect, response) = row::row(ui, CLIP_ROW, chosen, &clip.name);
+    let last = if session.is_edited(open.id) {
+        "edited".to_owned()
+    } else {
+        format!("{} joints", clip.skeleton().joint_count())
+    };
+    let numbers = format!(
+        "{}  \u{b7}  {} fps  \u{b7}  {last}",
+        duration_text(clip.motion.duration_secs()),
+        fps_text(clip.fps()),
+    );
+    let swatch = open.shown.then(|| color_of(open.color));
+    let texts = Texts {
+        name: &clip.name,
+        below: &numbers,
+        picture,
+        swatch,
+    };
+    let buttons = response.hovered() || response.contains_pointer() || (open.shown && !chosen);
+    let room = if buttons { 54.0 } else { 0.0 };
+    paint_clip(ui, rect, &texts, room);
+    if buttons {
+        clip_buttons(ui, rect, open, chosen, asked);
+    }
+    let response = if clip.report.is_empty() {
+        response
+    } else {
+        response.on_hover_text(report_text(clip))
+    };
+    if response.clicked() {
+        let adds = ui.input(|i| i.modifiers.shift || i.modifiers.command);
+        asked.requests.push(if adds {
+            Request::SetShown(open.id, !open.shown)
+        } else {
+            Request::Activate(open.id)
+        });
+    }
+}
+
+fn clip_buttons(ui: &mut Ui, rect: Rect, open: &OpenClip, chosen: bool, asked: &mut Asked) {
+    let size = vec2(24.0, 24.0);
+    let place = |slot: f32| {
+        Rect::from_center_size(
+            pos2(rect.right() - 16.0 - 26.0 * slot, rect.center().y),
+            size,
+        )
+    };
+    let mut close = ui.new_child(egui::UiBuilder::new().max_rect(place(0.0)).id_salt(open.id));
+    if sized_icon(&mut close, Icon::Close, "Close", false, size).clicked() {
+        asked.requests.push(Request::Close(open.id));
+    }
+    if !chosen {
+        let builder = egui::UiBuilder::new()
+            .max_rect(place(1.0))
+            .id_salt((open.id, "eye"));
+        let mut eye = ui.new_child(builder);
+        let (icon, says) = if open.shown {
+            (Icon::Eye, "Take it off the stage")
+        } else {
+            (
+                Icon::EyeOff,
+                "Compare: put it on the stage beside the active clip",
+            )
+        };
+        if sized_icon(&mut eye, icon, says, open.shown, size).clicked() {
+            asked.requests.push(Request::SetShown(open.id, !open.shown));
+        }
+    }
+}
+
+fn report_text(clip: &crate::state::clip::Clip) -> String {
+    const LISTED: usize = 6;
+    let warnings = &clip.report.warnings;
+    let mut lines: Vec<String> = warnings
+        .iter()
+        .take(LISTED)
+        .map(|warning| warning.to_string())
+        .collect();
+    if warnings.len() > LISTED {
+        lines.push(format!("and {} more", warnings.len() - LISTED));
+    }
+    lines.join("\n")
+}
+
+/// What a clip's row shows.
+struct Texts<'a> {
+    name: &'a str,
+    below: &'a str,
+    picture: Option<&'a Texture>,
+    swatch: Option<Color32>,
+}
+
+fn paint_clip(ui: &Ui, rect: Rect, texts: &Texts<'_>, room_for_buttons: f32) {
+    let palette = Palette::in_ui(ui);
+    let picture_rect =
+        Rect::from_center_size(pos2(rect.left() + 28.0, rect.center().y), vec2(44.0, 44.0));
+    ui.painter().rect_filled(picture_rect, 5.0, palette.sunken);
+    if let Some(picture) = texts.picture {
+        egui::Image::new((picture.id(), picture_rect.size()))
+            .corner_radius(5)
+            .paint_at(ui, picture_rect);
+    }
+    let left = picture_rect.right() + 2.0 * GAP;
+    let right = rect.right() - GAP - room_for_buttons;
+    let line = |top: f32, bottom: f32| {
+        Rect::from_min_max(
+            pos2(left, rect.top() + top),
+            pos2(right.max(left), rect.top() + bottom),
+        )
+    };
+    row::text_in(ui, line(7.0, 27.0), RichText::new(texts.name), palette.text);
+    let below = RichText::new(texts.below).small();
+    row::text_in(ui, line(26.0, 46.0), below, palette.quiet);
+    if let Some(color) = texts.swatch {
+        let bar = Rect::from_min_size(
+            pos2(rect.left() + 1.0, rect.top() + 10.0),
+            vec2(3.0, rect.height() - 20.0),
+        );
+        ui.painter().rect_filled(bar, 2.0, color);
+    }
+}
+
+/// The colour that stands for a figure.
+#[must_use]
+pub fn color_of(index: usize) -> Color32 {
+    let colors = CharacterColors::of(index);
+    let color = if index == 0 { colors.left } else { colors.base };
+    let [r, g, b] = color.to_srgb_bytes();
+    Color32::from_rgb(r, g, b)
+}
+
+fn folder(ui: &mut Ui, session: &Session, library: &Library<Preview>, asked: &mut Asked) {
+    let Some(folder) = &library.folder else {
+        return;
+    };
+    let name = folder
+        .file_name()
+        .unwrap_or(folder.as_os_str())
+        .to_string_lossy()
+        .into_owned();
+    row::divider(ui);
+    row::heading(ui, &name, |ui| {
+        if icon_button(ui, Icon::Close, "Close the folder").clicked() {
+            asked.requests.push(Request::CloseFolder);
+        }
+        let count = library.entries.len();
+        let unknown = library.unknown_count();
+        let text = if unknown > 0 {
+            format!("{} of {count}", count - unknown)
+        } else {
+            count.to_string()
+        };
+        ui.label(RichText::new(text).small().color(Palette::in_ui(ui).quiet));
+    });
+    let is_open = |path: &PathBuf| {
+        session.clips().iter().any(|open| {
+            matches!(&open.clip.source, crate::state::clip::Source::File(file) if file == path)
+        })
+    };
+    let listed: Vec<_> = library
+        .entries
+        .iter()
+        .filter(|entry| library.passes(&entry.name) && !is_open(&entry.path))
+        .collect();
+    if listed.is_empty() {
+        row::empty_note(ui, "No clip here passes the filter.");
+    }
+    for entry in listed {
+        // Rows that are scrolled away are not worth their text.
+        let next = ui.next_widget_position();
+        let place = Rect::from_min_size(next, vec2(ui.available_width(), CLIP_ROW));
+        if !ui.is_rect_visible(place) {
+            ui.allocate_exact_size(place.size(), egui::Sense::hover());
+            continue;
+        }
+        let (rect, response) = row::row(ui, CLIP_ROW, false, &entry.name);
+        let (below, picture) = match &entry.state {
+            EntryState::Unknown => ("\u{2026}".to_owned(), None),
+            EntryState::Ready(preview) => (
+                format!(
+                    "{}  \u{b7}  {} fps  \u{b7}  {} joints",
+                    duration_text(preview.numbers.duration_secs),
+                    fps_text(preview.numbers.fps),
+                    preview.numbers.joint_count
+                ),
+                Some(&preview.picture),
+            ),
+            EntryState::Refused(why) => (why.clone(), None),
+        };
+        let texts = Texts {
+            name: &entry.name,
+            below: &below,
+            picture,
+            swatch: None,
+        };
+        paint_clip(ui, rect, &texts, 0.0);
+        let response = response.on_hover_text(entry.path.display().to_string());
+        if response.clicked() {
+            let beside = ui.input(|i| i.modifiers.shift || i.modifiers.command);
+            asked
+                .requests
+                .push(Request::OpenPath(entry.path.clone(), beside));
+        }
+    }
+}
+
+/// A duration as people say it.
+#[must_use]
+pub fn duration_text(secs: f64) -> String {
+    if secs < 60.0 {
+        format!("{secs:.1} s")
+    } else {
+        super::transport::clock_text(secs)
+    }
+}
+
+/// A frame rate with as many digits as it has.
+#[must_use]
+pub fn fps_text(fps: f64) -> String {
+    let rounded = (fps * 100.0).round() / 100.0;
+    if (fps - fps.round()).abs() < 0.02 {
+        format!("{fps:.0}")
+    } else {
+        format!("{rounded}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frame_rates_have_only_the_digits_they_need() {
+        assert_eq!(fps_text(1.0 / 0.008_333_3), "120");
+        assert_eq!(fps_text(29.97), "29.97");
+        assert_eq!(fps_text(0.0), "0");
+    }
+}

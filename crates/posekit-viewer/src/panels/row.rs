@@ -1,0 +1,141 @@
+//! Rows and headings, the same in every panel.
+
+use egui::{Align, Color32, Layout, Rect, Response, RichText, Sense, Ui, Vec2, vec2};
+
+use super::Asked;
+use crate::command::Command;
+use crate::theme::{GAP, Palette};
+
+/// A heading over a part of a panel, with room for buttons at its right.
+pub fn heading(ui: &mut Ui, text: &str, buttons: impl FnOnce(&mut Ui)) {
+    ui.horizontal(|ui| {
+        ui.set_min_height(28.0);
+        let palette = Palette::in_ui(ui);
+        ui.label(RichText::new(text).strong().size(12.5).color(palette.text));
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            ui.spacing_mut().item_spacing.x = 0.0;
+            buttons(ui);
+        });
+    });
+}
+
+/// A row that can be clicked: its ground shows whether it is chosen. What is in it is painted by
+/// the caller into the rectangle that comes back.
+pub fn row(ui: &mut Ui, height: f32, chosen: bool, name: &str) -> (Rect, Response) {
+    let size = vec2(ui.available_width(), height);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, chosen, name));
+    let palette = Palette::in_ui(ui);
+    let fill = if chosen {
+        palette.accent_soft
+    } else if response.hovered() {
+        palette.hover
+    } else {
+        Color32::TRANSPARENT
+    };
+    ui.painter().rect_filled(rect, 6.0, fill);
+    if response.has_focus() {
+        let edge = egui::Stroke::new(1.5, palette.accent);
+        ui.painter()
+            .rect_stroke(rect, 6.0, edge, egui::StrokeKind::Inside);
+    }
+    (rect, response)
+}
+
+/// One line of text that ends in an ellipsis where there is no more room.
+pub fn text_in(ui: &Ui, rect: Rect, text: RichText, color: Color32) {
+    let mut job = egui::WidgetText::from(text.color(color)).into_layout_job(
+        ui.style(),
+        egui::FontSelection::Default,
+        Align::Center,
+    );
+    let mut job = std::sync::Arc::unwrap_or_clone(std::mem::take(&mut job));
+    job.wrap = egui::text::TextWrapping::truncate_at_width(rect.width());
+    let galley = ui.painter().layout_job(job);
+    let at = egui::pos2(rect.left(), rect.center().y - galley.size().y / 2.0);
+    ui.painter().galley(at, galley, color);
+}
+
+/// A quiet sentence where there is nothing else to show.
+pub fn empty_note(ui: &mut Ui, text: &str) {
+    ui.add_space(GAP);
+    let palette = Palette::in_ui(ui);
+    ui.label(RichText::new(text).color(palette.quiet));
+    ui.add_space(GAP);
+}
+
+/// A hairline between two parts of a panel.
+pub fn divider(ui: &mut Ui) {
+    ui.add_space(GAP);
+    let (rect, _) = ui.allocate_exact_size(Vec2::new(ui.available_width(), 1.0), Sense::hover());
+    ui.painter().rect_filled(rect, 0.0, Palette::in_ui(ui).line);
+    ui.add_space(GAP);
+}
+
+/// One of several, beside each other in one well: each a command, its name, and what it does.
+pub fn segments(
+    ui: &mut Ui,
+    chosen: Command,
+    options: &[(Command, &str, String)],
+    asked: &mut Asked,
+) {
+    let palette = Palette::in_ui(ui);
+    let well = egui::Frame::NONE
+        .fill(palette.sunken)
+        .corner_radius(7.0)
+        .inner_margin(egui::Margin::same(2));
+    well.show(ui, |ui| {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = 2.0;
+            for (command, name, says) in options {
+                if segment(ui, name, *command == chosen)
+                    .on_hover_text(says)
+                    .clicked()
+                {
+                    asked.command(*command);
+                }
+            }
+        });
+    });
+}
+
+/// One of several beside each other.
+pub(super) fn segment(ui: &mut Ui, name: &str, chosen: bool) -> Response {
+    const HEIGHT: f32 = 22.0;
+    let palette = Palette::in_ui(ui);
+    let font = egui::TextStyle::Button.resolve(ui.style());
+    let color = if chosen { palette.accent } else { palette.text };
+    let galley = ui.painter().layout_no_wrap(name.to_owned(), font, color);
+    let size = vec2(galley.size().x + 5.0 * GAP, HEIGHT);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    response
+        .widget_info(|| egui::WidgetInfo::selected(egui::Role::RadioButton, true, chosen, name));
+    if chosen {
+        ui.painter().rect_filled(rect, 5.0, palette.raised);
+        let edge = egui::Stroke::new(1.0, palette.line);
+        ui.painter()
+            .rect_stroke(rect, 5.0, edge, egui::StrokeKind::Inside);
+    } else if response.hovered() {
+        ui.painter().rect_filled(rect, 5.0, palette.hover);
+    }
+    if response.has_focus() {
+        let edge = egui::Stroke::new(1.5, palette.accent);
+        ui.painter()
+            .rect_stroke(rect, 5.0, edge, egui::StrokeKind::Inside);
+    }
+    let at = rect.center() - galley.size() / 2.0;
+    ui.painter().galley(at, galley, color);
+    response
+}
+
+/// A name at the left, something to be set at the right.
+pub fn line<T>(ui: &mut Ui, name: &str, contents: impl FnOnce(&mut Ui) -> T) -> T {
+    const NAME_WIDTH: f32 = 72.0;
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = GAP;
+        let (rect, _) = ui.allocate_exact_size(vec2(NAME_WIDTH, 20.0), Sense::hover());
+        text_in(ui, rect, RichText::new(name), Palette::in_ui(ui).quiet);
+        contents(ui)
+    })
+    .inner
+}

@@ -1,0 +1,175 @@
+//! What lies over the view while poses are edited: the gizmo's choices at the top, a hint at the bottom.
+
+use egui::{Align, Layout, Rect, Ui, UiBuilder, pos2, vec2};
+
+use super::super::{Asked, row, tip};
+use crate::command::Command;
+use crate::gizmo::Tool;
+use crate::icons::{Icon, sized_icon};
+use crate::state::mode::{Mode, Space, TURN_STEP_DEG, move_step};
+use crate::state::session::Session;
+use crate::theme::{GAP, Palette};
+
+/// Under this width the strip leaves out what keys do as well.
+const NARROW: f32 = 430.0;
+
+/// Shows both.
+pub(super) fn show(ui: &mut Ui, rect: Rect, session: &mut Session, asked: &mut Asked) {
+    if !session.mode().edits() || session.active_clip().is_none() {
+        return;
+    }
+    let room = Rect::from_min_max(rect.min + vec2(10.0, 10.0), rect.max - vec2(10.0, 10.0));
+    if room.width() < 120.0 || room.height() < 80.0 {
+        return;
+    }
+    let builder = UiBuilder::new()
+        .max_rect(room)
+        .layout(Layout::left_to_right(Align::Min));
+    ui.scope_builder(builder, |ui| tools(ui, room.width(), session, asked));
+    hint(ui, room, session);
+}
+
+fn tools(ui: &mut Ui, width: f32, session: &mut Session, asked: &mut Asked) {
+    let palette = Palette::in_ui(ui);
+    let card = egui::Frame::NONE
+        .fill(palette.raised.gamma_multiply(0.94))
+        .stroke(egui::Stroke::new(1.0, palette.line))
+        .corner_radius(9.0)
+        .inner_margin(egui::Margin::same(3));
+    card.show(ui, |ui| {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = GAP;
+            undo_buttons(ui, session, asked);
+            tool_choice(ui, session, asked);
+            if width >= NARROW {
+                spaces(ui, session);
+                snap(ui, session, asked);
+            }
+        });
+    });
+}
+
+/// Arrows or rings; on a target, arrows alone or both.
+fn tool_choice(ui: &mut Ui, session: &Session, asked: &mut Asked) {
+    let tools = session.tools();
+    let (chosen, options) = match session.mode() {
+        Mode::Ik => {
+            let chosen = match tools.ik_tool {
+                Tool::Move => Tool::Move,
+                Tool::Turn | Tool::MoveAndTurn => Tool::Turn,
+            };
+            let options = [
+                (Tool::Move, "Place", "Bring it to a place"),
+                (
+                    Tool::Turn,
+                    "Place and turn",
+                    "Bring it to a place, turned in a certain way",
+                ),
+            ];
+            (chosen, options)
+        }
+        Mode::View | Mode::Pose | Mode::Lab => {
+            let options = [
+                (Tool::Move, "Move", "Arrows: move what the file lets move"),
+                (Tool::Turn, "Turn", "Rings: turn"),
+            ];
+            (tools.tool, options)
+        }
+    };
+    let options = options.map(|(tool, name, says)| {
+        let command = Command::Tool(tool);
+        (command, name, tip(says, command))
+    });
+    row::segments(ui, Command::Tool(chosen), &options, asked);
+}
+
+fn undo_buttons(ui: &mut Ui, session: &Session, asked: &mut Asked) {
+    let names = session.edits().map(|edits| {
+        let name = |name: Option<&str>| name.map(str::to_owned);
+        (name(edits.undo_name()), name(edits.redo_name()))
+    });
+    let (undo, redo) = names.unwrap_or_default();
+    for (icon, name, verb, command) in [
+        (Icon::Undo, undo, "Undo", Command::Undo),
+        (Icon::Redo, redo, "Redo", Command::Redo),
+    ] {
+        ui.add_enabled_ui(name.is_some(), |ui| {
+            let says = match &name {
+                Some(name) => tip(&format!("{verb}: {name}"), command),
+                None => tip(verb, command),
+            };
+            if sized_icon(ui, icon, &says, false, vec2(26.0, 26.0)).clicked() {
+                asked.command(command);
+            }
+        });
+    }
+}
+
+fn spaces(ui: &mut Ui, session: &mut Session) {
+    let mut tools = session.tools();
+    let chosen = tools.space_in(session.mode());
+    egui::ComboBox::from_id_salt("space")
+        .selected_text(chosen.name())
+        .width(72.0)
+        .show_ui(ui, |ui| {
+            for space in Space::ALL {
+                ui.selectable_value(chosen, space, space.name());
+            }
+        })
+        .response
+        .on_hover_text(tip("How the gizmo's axes lie", Command::NextSpace));
+    session.set_tools(tools);
+}
+
+fn snap(ui: &mut Ui, session: &Session, asked: &mut Asked) {
+    let step = move_step(session.stage().stature());
+    let digits = usize::from(step < 1.0) + usize::from(step < 0.1) + usize::from(step < 0.01);
+    let text = format!("{TURN_STEP_DEG}\u{b0}, {step:.digits$}");
+    let says = tip("Go in steps; Ctrl does the other", Command::ToggleSnap);
+    let button = egui::Button::selectable(session.tools().snaps, format!("Snap {text}"));
+    if ui.add(button).on_hover_text(says).clicked() {
+        asked.command(Command::ToggleSnap);
+    }
+}
+
+/// What the pointer does, and why nothing can be done where that is so.
+fn hint(ui: &Ui, room: Rect, session: &Session) {
+    let palette = Palette::in_ui(ui);
+    let text = text(session);
+    if text.is_empty() {
+        return;
+    }
+    let font = egui::TextStyle::Small.resolve(ui.style());
+    let galley = ui.painter().layout_no_wrap(text, font, palette.quiet);
+    let size = galley.size() + vec2(20.0, 8.0);
+    if size.x > room.width() {
+        return;
+    }
+    let at = pos2(room.center().x - size.x / 2.0, room.bottom() - size.y);
+    let pill = Rect::from_min_size(at, size);
+    let fill = palette.raised.gamma_multiply(0.9);
+    ui.painter().rect_filled(pill, size.y / 2.0, fill);
+    ui.painter()
+        .galley(at + vec2(10.0, 4.0), galley, palette.quiet);
+}
+
+fn text(session: &Session) -> String {
+    if session.is_dragging() {
+        return "Ctrl: in steps  \u{b7}  Esc: let go".to_owned();
+    }
+    let clip = session.active_clip();
+    if clip.is_some_and(|clip| clip.frame_count() == 0) {
+        return "This clip has no frames to edit".to_owned();
+    }
+    if !session.can_edit() {
+        return "The rest pose is shown; the motion can be edited  (R)".to_owned();
+    }
+    if session.stepper().is_some() {
+        return "PageDown: next update  \u{b7}  PageUp: back  \u{b7}  Esc: end".to_owned();
+    }
+    let is_fixed = session.selected().is_some() && session.gizmo().is_none();
+    if is_fixed {
+        return "The file gives this joint no channels to turn or move".to_owned();
+    }
+    session.mode().hint().to_owned()
+}

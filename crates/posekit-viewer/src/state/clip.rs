@@ -1,0 +1,221 @@
+//! A clip: one opened motion with everything that is derived from it once.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use glam::Vec3;
+use posekit::check::{CheckConfig, Finding, check_channels, check_motion};
+use posekit::motion::{GlobalMotion, Motion, PositionPolicy};
+use posekit::pose::{GlobalPose, LocalPose, forward_kinematics};
+use posekit::rotation::EulerOrder;
+use posekit::skeleton::{JointId, Skeleton, SkeletonError};
+use posekit_formats::bvh::Bvh;
+use posekit_formats::report::{Import, ImportReport};
+
+/// Where a clip came from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// A file on this machine; it can be read again.
+    File(PathBuf),
+    /// Bytes that came without a place: dropped on a page, or fetched.
+    Bytes,
+    /// Made by posekit itself.
+    Sample,
+}
+
+/// One opened motion.
+#[derive(Clone, Debug)]
+pub struct Clip {
+    /// The name shown: the file's, without its folder.
+    pub name: String,
+    /// Where it came from.
+    pub source: Source,
+    /// The document, as the file has it, or as a file of the sample would.
+    pub document: Arc<Bvh>,
+    /// What the reader noticed and repaired.
+    pub report: ImportReport,
+    /// The motion.
+    pub motion: Arc<Motion>,
+    /// Its forward kinematics.
+    pub global: Arc<GlobalMotion>,
+    /// What the checks found; empty until [`check`] was run.
+    pub findings: Vec<Finding>,
+}
+
+impl Clip {
+    /// A clip of a BVH document.
+    ///
+    /// # Errors
+    /// If the document makes no skeleton.
+    pub fn from_bvh(
+        name: impl Into<String>,
+        source: Source,
+        import: Import<Bvh>,
+    ) -> Result<Self, SkeletonError> {
+        let motion = import.document.to_motion(PositionPolicy::default())?;
+        Ok(Self::new(
+            name.into(),
+            source,
+            import.document,
+            import.report,
+            motion,
+        ))
+    }
+
+    /// A clip of a motion that no file holds.
+    #[must_use]
+    pub fn from_motion(name: impl Into<String>, motion: Motion) -> Self {
+        let document = Bvh::from_motion(&motion, EulerOrder::ZXY);
+        Self::new(
+            name.into(),
+            Source::Sample,
+            document,
+            ImportReport::default(),
+            motion,
+        )
+    }
+
+    fn new(
+        name: String,
+        source: Source,
+        document: Bvh,
+        report: ImportReport,
+        motion: Motion,
+    ) -> Self {
+        let global = motion.to_global();
+        Self {
+            name,
+            source,
+            document: Arc::new(document),
+            report,
+            motion: Arc::new(motion),
+            global: Arc::new(global),
+            findings: Vec::new(),
+        }
+    }
+
+    /// The skeleton that moves.
+    #[must_use]
+    pub fn skeleton(&self) -> &Arc<Skeleton> {
+        self.motion.skeleton()
+    }
+
+    /// How many frames there are; it may be 0.
+    #[must_use]
+    pub fn frame_count(&self) -> usize {
+        self.motion.frame_count()
+    }
+
+    /// Frames a second; 0 where the file's frame time is not positive.
+    #[must_use]
+    pub fn fps(&self) -> f64 {
+        let frame_time = self.motion.frame_time_secs();
+        if frame_time > 0.0 {
+            1.0 / frame_time
+        } else {
+            0.0
+        }
+    }
+
+    /// The local pose at a time.
+    #[must_use]
+    pub fn local_pose(&self, time_secs: f64) -> LocalPose {
+        self.motion.sample(time_secs)
+    }
+
+    /// The global pose at a time.
+    #[must_use]
+    pub fn global_pose(&self, time_secs: f64) -> GlobalPose {
+        let mut global = GlobalPose::default();
+        forward_kinematics(self.skeleton(), &self.local_pose(time_secs), &mut global);
+        global
+    }
+
+    /// The motion with all lengths multiplied; `None` when they get too large for numbers.
+    #[must_use]
+    pub fn scaled_motion(&self, factor: f64) -> Option<Motion> {
+        let mut document = (*self.document).clone();
+        posekit_formats::bvh::edit::scale(&mut document, factor).ok()?;
+        document.to_motion(PositionPolicy::default()).ok()
+    }
+
+    /// The nearest frame to a time.
+    #[must_use]
+    pub fn frame_at(&self, time_secs: f64) -> usize {
+        let last = self.frame_count().saturating_sub(1);
+        let frame_time = self.motion.frame_time_secs();
+        if frame_time <= 0.0 || !time_secs.is_finite() {
+            return 0;
+        }
+        nearest_index(time_secs / frame_time, last)
+    }
+
+    /// The rotation order that a joint's channels have in the file, as axes; `None` where it has no
+    /// rotation channels.
+    #[must_use]
+    pub fn rotation_axes(&self, joint: JointId) -> Option<Vec<posekit::rotation::Axis>> {
+        use posekit::motion::Channel;
+        let axes: Vec<_> = self.document.joints[joint.index()]
+            .channels
+            .iter()
+            .filter_map(|channel| match channel {
+                Channel::Rotation(axis) => Some(*axis),
+                Channel::Position(_) => None,
+            })
+            .collect();
+        (!axes.is_empty()).then_some(axes)
+    }
+}
+
+/// A motion of one frame: the rest pose, with the roots where they are in `motion` at a time, so that
+/// it stays in the picture, and from there by `place`.
+#[must_use]
+pub fn rest_motion(motion: &Motion, time_secs: f64, place: Vec3) -> Motion {
+    let skeleton = motion.skeleton();
+    let mut rest = LocalPose::rest(skeleton);
+    let here = motion.sample(time_secs);
+    for root in skeleton.roots() {
+        rest.translations[root.index()] = here.translations[root.index()] + place;
+    }
+    let roots: Vec<_> = skeleton.roots().collect();
+    Motion::from_poses(Arc::clone(skeleton), 1.0 / 30.0, roots, &[rest])
+}
+
+/// Everything suspicious in a clip.
+#[must_use]
+pub fn check(clip: &Clip) -> Vec<Finding> {
+    let config = CheckConfig::default();
+    let mut findings = check_motion(&clip.motion, &clip.global, &config);
+    if let Some(motion) = &clip.document.motion {
+        let layout = clip.document.channel_layout();
+        findings.extend(check_channels(
+            clip.skeleton(),
+            &layout,
+            &motion.values,
+            &config,
+        ));
+        posekit::check::sort_findings(&mut findings);
+    }
+    findings
+}
+
+/// A frame number as a factor of time.
+#[must_use]
+#[expect(
+    clippy::cast_precision_loss,
+    reason = "frame numbers stay far below 2^53"
+)]
+pub fn index_to_f64(index: usize) -> f64 {
+    index as f64
+}
+
+/// The whole number nearest to a place, not above `last`.
+#[must_use]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a cast from float to integer saturates, and negative places become 0"
+)]
+pub fn nearest_index(place: f64, last: usize) -> usize {
+    (place.round() as usize).min(last)
+}

@@ -1,0 +1,17 @@
+//! The program's state, apart from any widget: testable without a window.
+
+pub mod arm;
+pub mod camera;
+pub mod clip;
+pub mod curves;
+pub mod display;
+pub mod edit;
+pub mod ik;
+pub mod library;
+pub mod mode;
+pub mod notices;
+pub mod pick;
+pub mod readout;
+pub mod session;
+pub mod settings;
+pub mod transport;

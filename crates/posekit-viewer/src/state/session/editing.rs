@@ -1,0 +1,433 @@
+//! Editing the active clip: modes, what the gizmo holds, undo and redo.
+//!
+//! While a handle is dragged the figure is held in a pose that is in no clip yet ([`Session::live_pose`]);
+//! letting go puts it into the clip as one step, Esc lets it fall back.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use egui::Pos2;
+use glam::{Quat, Vec3};
+use posekit::pose::{GlobalPose, LocalPose};
+use posekit::skeleton::JointId;
+
+use super::{ClipId, Session};
+use crate::gizmo::{Drag, Gizmo, Handle, Placement, Snap, Tool, Viewport};
+use crate::state::clip::Clip;
+use crate::state::display::PoseShown;
+use crate::state::edit::{ClipEdits, Spread, freedom, reachable};
+use crate::state::mode::{Mode, Space, TURN_STEP_DEG, ToolSettings, move_step};
+
+/// What undo or redo has changed, for people.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Changed {
+    /// The step's name.
+    pub name: String,
+}
+
+/// All of a session that is about editing.
+#[derive(Debug, Default)]
+pub(super) struct Editing {
+    mode: Mode,
+    tools: ToolSettings,
+    edits: BTreeMap<ClipId, ClipEdits>,
+    held: Option<Held>,
+    /// The pose that the figure is held in while a handle is dragged.
+    live: Option<Arc<LocalPose>>,
+    /// Clips whose motion has changed since that was asked for.
+    changed: BTreeSet<ClipId>,
+}
+
+/// A handle that is held with the pointer.
+#[derive(Clone, Debug)]
+struct Held {
+    drag: Drag,
+    joint: JointId,
+    /// The pose when it was taken.
+    pose: Arc<LocalPose>,
+}
+
+/// The name of the step that puts a turned joint in.
+fn step_name(verb: &str, clip: &Clip, joint: JointId) -> String {
+    format!("{verb} {}", clip.skeleton().unique_name(joint))
+}
+
+impl Session {
+    /// What the window is for.
+    #[must_use]
+    pub fn mode(&self) -> Mode {
+        self.editing.mode
+    }
+
+    /// Changes what the window is for. Poses are edited standing still, and in the motion.
+    pub fn set_mode(&mut self, mode: Mode) {
+        self.stop_editing();
+        self.editing.mode = mode;
+        if mode == Mode::Lab {
+            self.transport.pause();
+        }
+        if mode.edits() {
+            self.transport.pause();
+            if self.pose_shown == PoseShown::Rest {
+                self.set_pose_shown(PoseShown::Motion);
+            }
+        }
+    }
+
+    /// How the gizmo is set.
+    #[must_use]
+    pub fn tools(&self) -> ToolSettings {
+        self.editing.tools
+    }
+
+    /// Sets the gizmo.
+    pub fn set_tools(&mut self, tools: ToolSettings) {
+        self.editing.tools = tools;
+    }
+
+    /// The edits of the active clip, once there are any.
+    #[must_use]
+    pub fn edits(&self) -> Option<&ClipEdits> {
+        self.editing.edits.get(&self.active?)
+    }
+
+    /// Whether a clip differs from what was opened.
+    #[must_use]
+    pub fn is_edited(&self, id: ClipId) -> bool {
+        let edits = self.editing.edits.get(&id);
+        edits.is_some_and(ClipEdits::has_changed_motion)
+    }
+
+    /// The clips whose motion has changed since this was asked last.
+    pub fn take_changed(&mut self) -> Vec<ClipId> {
+        std::mem::take(&mut self.editing.changed)
+            .into_iter()
+            .collect()
+    }
+
+    /// Whether the active clip can be edited at the frame shown.
+    #[must_use]
+    pub fn can_edit(&self) -> bool {
+        let frames = self.active_clip().map_or(0, |clip| clip.frame_count());
+        frames > 0 && self.pose_shown == PoseShown::Motion
+    }
+
+    /// The local pose of the active clip as it is shown: held by a handle, or the motion's.
+    #[must_use]
+    pub fn shown_local_pose(&self) -> Option<LocalPose> {
+        let clip = self.active_clip()?;
+        Some(match &self.editing.live {
+            Some(live) => LocalPose::clone(live),
+            None => clip.local_pose(self.transport.time_secs()),
+        })
+    }
+
+    /// The pose that the figure is held in while a handle is dragged.
+    #[must_use]
+    pub fn live_pose(&self) -> Option<&LocalPose> {
+        self.editing.live.as_deref()
+    }
+
+    /// From where the active clip's motion says to where its figure stands.
+    #[must_use]
+    pub fn active_place(&self) -> Vec3 {
+        let index = self.active_actor();
+        let place = index.and_then(|index| self.stage.places().get(index));
+        place.copied().unwrap_or_default()
+    }
+
+    /// Which of the stage's actors is the active clip's.
+    fn active_actor(&self) -> Option<usize> {
+        self.shown().position(|open| Some(open.id) == self.active)
+    }
+
+    /// Holds the active figure in a pose, or lets it go back to its motion.
+    pub(super) fn hold(&mut self, pose: Option<Arc<LocalPose>>) {
+        let Some(clip) = self.active_clip().map(Arc::clone) else {
+            return;
+        };
+        let global = pose
+            .as_ref()
+            .map(|pose| Arc::new(pose.to_global(clip.skeleton())));
+        self.editing.live = pose;
+        if let Some(index) = self.active_actor() {
+            self.stage.edit_actor(index, |actor| actor.hold(global));
+            self.stage_version += 1;
+        }
+    }
+
+    /// Changes the active clip, then shows it.
+    pub(super) fn edit_clip<T>(
+        &mut self,
+        edit: impl FnOnce(&mut ClipEdits, &mut Clip) -> T,
+    ) -> Option<T> {
+        let id = self.active?;
+        let index = self.index_of(id)?;
+        let edits = self.editing.edits.entry(id).or_default();
+        let motion_before = Arc::clone(&self.clips[index].clip.motion);
+        let done = edit(edits, Arc::make_mut(&mut self.clips[index].clip));
+        let open = &mut self.clips[index];
+        if !Arc::ptr_eq(&motion_before, &open.clip.motion) {
+            open.actor = open.actor.with_motion(Arc::clone(&open.clip.motion));
+            self.editing.changed.insert(id);
+        }
+        self.editing.live = None;
+        if let Some(actor) = self.active_actor() {
+            let motion = Arc::clone(&self.clips[index].clip.motion);
+            self.stage
+                .edit_actor(actor, |actor| *actor = actor.with_motion(motion));
+            self.stage_version += 1;
+        }
+        Some(done)
+    }
+
+    /// Puts a pose into the active clip at the frame shown, as one step.
+    pub(super) fn put_pose(&mut self, name: &str, pose: LocalPose) {
+        let frame = self.transport.frame();
+        self.edit_clip(|edits, clip| {
+            let goals = edits.state().goals.clone();
+            edits.set_pose(clip, name, frame, pose, goals);
+        });
+    }
+
+    /// Undoes the last step of the active clip.
+    pub fn undo(&mut self) -> Option<Changed> {
+        self.stop_editing();
+        let (name, frame) = self.edit_clip(|edits, clip| edits.undo(clip))??;
+        self.go_to_edited(frame);
+        Some(Changed { name })
+    }
+
+    /// Does the last step again that was undone.
+    pub fn redo(&mut self) -> Option<Changed> {
+        self.stop_editing();
+        let (name, frame) = self.edit_clip(|edits, clip| edits.redo(clip))??;
+        self.go_to_edited(frame);
+        Some(Changed { name })
+    }
+
+    /// What was changed is to be seen.
+    fn go_to_edited(&mut self, frame: Option<usize>) {
+        if let Some(frame) = frame
+            && frame != self.transport.frame()
+        {
+            self.transport.pause();
+            self.transport.go_to_frame(frame);
+        }
+    }
+
+    /// Keeps the draft for good.
+    pub fn keep_draft(&mut self) {
+        self.edit_clip(ClipEdits::keep);
+    }
+
+    /// Takes the draft back.
+    pub fn reset_draft(&mut self) {
+        self.stop_editing();
+        self.edit_clip(ClipEdits::reset);
+    }
+
+    /// Changes how the draft reaches the frames around. All that happens in one `gesture` of the
+    /// caller's is one step.
+    pub fn set_spread(&mut self, spread: Spread, gesture: crate::state::edit::Gesture) {
+        self.edit_clip(|edits, clip| edits.set_spread(clip, spread, gesture));
+    }
+
+    /// A new gesture on the active clip's edits.
+    pub fn new_gesture(&mut self) -> Option<crate::state::edit::Gesture> {
+        let id = self.active?;
+        Some(self.editing.edits.entry(id).or_default().gesture())
+    }
+
+    pub(super) fn forget_edits(&mut self, id: ClipId) {
+        self.editing.edits.remove(&id);
+        if self.active == Some(id) {
+            self.stop_editing();
+        }
+    }
+
+    /// The steps that the gizmo goes in.
+    #[must_use]
+    pub fn snap(&self) -> Snap {
+        Snap {
+            length: move_step(self.stage.stature()),
+            angle_rad: TURN_STEP_DEG.to_radians(),
+        }
+    }
+
+    /// The gizmo of what is selected, as it stands now.
+    #[must_use]
+    pub fn gizmo(&self) -> Option<Gizmo> {
+        if let Some(held) = &self.editing.held {
+            let placement = held.drag.placement();
+            return Some(Gizmo {
+                position: placement.position,
+                ..*held.drag.gizmo()
+            });
+        }
+        match self.editing.mode {
+            Mode::View | Mode::Lab => None,
+            Mode::Pose => self.joint_gizmo(),
+            Mode::Ik => self.target_gizmo(),
+        }
+    }
+
+    /// The joint that the gizmo turns, if its channels let it.
+    fn joint_gizmo(&self) -> Option<Gizmo> {
+        let joint = self.selected().filter(|_| self.can_edit())?;
+        let clip = self.active_clip()?;
+        if joint.index() >= clip.document.joints.len() {
+            return None;
+        }
+        let freedom = freedom(&clip.document, joint);
+        let tool = match (freedom.turns.is_some(), freedom.moves) {
+            (false, false) => return None,
+            (true, false) => Tool::Turn,
+            (false, true) => Tool::Move,
+            (true, true) => self.editing.tools.tool,
+        };
+        let global = self.shown_global_pose()?;
+        Some(Gizmo {
+            position: global.positions[joint.index()] + self.active_place(),
+            axes: self.axes_of(joint, &global),
+            tool,
+        })
+    }
+
+    /// The gizmo's axes at a joint.
+    pub(super) fn axes_of(&self, joint: JointId, global: &GlobalPose) -> Quat {
+        let of = |joint: JointId| global.orientations[joint.index()];
+        let parent = self
+            .active_clip()
+            .and_then(|clip| clip.skeleton().parent(joint));
+        match *self.tools().space_in(self.mode()) {
+            Space::Local => of(joint),
+            Space::Parent => parent.map_or(Quat::IDENTITY, of),
+            Space::World => Quat::IDENTITY,
+        }
+    }
+
+    /// Whether a handle is held.
+    #[must_use]
+    pub fn is_dragging(&self) -> bool {
+        self.editing.held.is_some()
+    }
+
+    /// The drag of the handle that is held.
+    #[must_use]
+    pub fn drag(&self) -> Option<&Drag> {
+        self.editing.held.as_ref().map(|held| &held.drag)
+    }
+
+    /// Takes a handle of the gizmo. False when there is nothing to take.
+    pub fn grab(&mut self, handle: Handle, pointer: Pos2, viewport: &Viewport) -> bool {
+        self.stop_editing();
+        self.transport.pause();
+        let (Some(gizmo), Some(joint)) = (self.gizmo(), self.selected()) else {
+            return false;
+        };
+        let (Some(pose), Some(global)) = (self.shown_local_pose(), self.shown_global_pose()) else {
+            return false;
+        };
+        let orientation = match self.target() {
+            Some(target) => target.orientation,
+            None => global.orientations[joint.index()],
+        };
+        let start = Placement {
+            position: gizmo.position,
+            orientation,
+        };
+        let Some(drag) = Drag::begin(gizmo, handle, start, pointer, viewport) else {
+            return false;
+        };
+        let pose = Arc::new(pose);
+        self.editing.held = Some(Held { drag, joint, pose });
+        true
+    }
+
+    /// Follows the pointer with the handle that is held.
+    pub fn drag_to(&mut self, pointer: Pos2, viewport: &Viewport, snap: Option<Snap>) {
+        let Some(mut held) = self.editing.held.take() else {
+            return;
+        };
+        let before = held.drag.placement();
+        let placement = held.drag.update(pointer, viewport, snap);
+        if placement != before {
+            let pose = if self.editing.mode == Mode::Ik {
+                let from = self.editing.live.clone();
+                self.follow(&from.unwrap_or_else(|| Arc::clone(&held.pose)), placement)
+            } else {
+                self.pose_with_joint_at(&held, placement)
+            };
+            self.hold(pose.map(Arc::new));
+        }
+        self.editing.held = Some(held);
+    }
+
+    /// The pose in which the joint that is held stands and is turned as it was dragged.
+    fn pose_with_joint_at(&self, held: &Held, placement: Placement) -> Option<LocalPose> {
+        let clip = self.active_clip()?;
+        let skeleton = clip.skeleton();
+        let joint = held.joint;
+        let global = held.pose.to_global(skeleton);
+        let mut pose = LocalPose::clone(&held.pose);
+        let parent = skeleton.parent(joint);
+        let freedom = freedom(&clip.document, joint);
+        if held.drag.handle().turns() {
+            let order = freedom.turns?;
+            let parent = parent.map_or(Quat::IDENTITY, |p| global.orientations[p.index()]);
+            let rotation = (parent.inverse() * placement.orientation).normalize();
+            pose.rotations[joint.index()] = reachable(order, rotation);
+        } else {
+            let position = placement.position - self.active_place();
+            let local = match parent {
+                Some(parent) => global.inverse_transform_point(parent, position),
+                None => position,
+            };
+            pose.translations[joint.index()] = local;
+        }
+        Some(pose)
+    }
+
+    /// Lets the handle go: what it did becomes a step.
+    pub fn drop_handle(&mut self) {
+        let Some(held) = self.editing.held.take() else {
+            return;
+        };
+        if self.limbs.dragged.is_some() {
+            let pose = self.editing.live.take();
+            self.put_target(pose.map(|pose| LocalPose::clone(&pose)));
+            return;
+        }
+        let (Some(live), Some(clip)) = (self.editing.live.clone(), self.active_clip()) else {
+            return;
+        };
+        if *live == *held.pose {
+            self.hold(None);
+            return;
+        }
+        let verb = if held.drag.handle().turns() {
+            "Turn"
+        } else {
+            "Move"
+        };
+        let name = step_name(verb, clip, held.joint);
+        self.put_pose(&name, LocalPose::clone(&live));
+    }
+
+    /// Lets the handle go without effect. True when one was held.
+    pub fn cancel_drag(&mut self) -> bool {
+        let was_held = self.editing.held.take().is_some();
+        self.limbs.dragged = None;
+        if was_held || self.editing.live.is_some() {
+            self.hold(None);
+        }
+        was_held
+    }
+
+    /// Ends a drag and a solver's way without effect: something else has come between.
+    pub(super) fn stop_editing(&mut self) {
+        self.stop_stepping();
+        self.cancel_drag();
+    }
+}

@@ -1,0 +1,148 @@
+//! Setting the stage: from what is open and how it is shown to actors in their places.
+
+use std::sync::Arc;
+
+use posekit::skeleton::JointId;
+use posekit_render::stage::{
+    Actor, Arrangement, AxesShown, Ghosts, Labels, Stage, StageOptions, Trails,
+};
+use posekit_render::theme::{CharacterColors, Theme};
+
+use super::{OpenClip, Session};
+use crate::state::clip::{Clip, rest_motion};
+use crate::state::display::{Display, Look, PoseShown};
+
+/// How many ghosts there are before and after the figure.
+const GHOSTS_EACH_SIDE: usize = 3;
+
+/// Figures whose heights differ by this factor are told in different units: there are no people
+/// four times as tall as others.
+const OTHER_UNIT: f32 = 4.0;
+
+impl Session {
+    pub(super) fn set_stage(&mut self) {
+        let time = self.transport.time_secs();
+        self.set_scales();
+        let actors: Vec<Actor> = self.shown().map(|open| open.on_stage().clone()).collect();
+        self.stage = Stage::new(actors, self.stage_options());
+        if self.pose_shown == PoseShown::Rest {
+            self.stage = self.stage_at_rest(time);
+        }
+        self.stage_version += 1;
+    }
+
+    /// The stage with every figure at rest, where it stands in its motion at a time.
+    fn stage_at_rest(&self, time_secs: f64) -> Stage {
+        let placed = self.shown().zip(self.stage.places());
+        let at_rest = placed.map(|(open, &place)| {
+            let motion = rest_motion(open.on_stage().motion(), time_secs, place);
+            let colors = CharacterColors::of(open.color);
+            Actor::new(Arc::new(motion), self.display.style.to_render(), colors)
+        });
+        let options = StageOptions {
+            arrangement: Arrangement::AsRecorded,
+            ..self.stage_options()
+        };
+        Stage::new(at_rest.collect(), options)
+    }
+
+    /// Figures that are told in another unit of length than the active one are made as tall as it
+    /// is, or one would be a giant to the other.
+    fn set_scales(&mut self) {
+        let active = self.clips.iter().find(|open| Some(open.id) == self.active);
+        let Some(stature) = active.map(|open| open.actor.stature()) else {
+            return;
+        };
+        let display = &self.display;
+        for open in self.clips.iter_mut().filter(|open| open.shown) {
+            let factor = stature / open.actor.stature();
+            if !factor.is_finite() || (1.0 / OTHER_UNIT..OTHER_UNIT).contains(&factor) {
+                open.scaled = None;
+            } else if open
+                .scaled
+                .as_ref()
+                .is_none_or(|(before, _)| *before != factor)
+            {
+                let motion = open.clip.scaled_motion(factor.into()).map(Arc::new);
+                open.scaled = motion.map(|motion| {
+                    let colors = CharacterColors::of(open.color);
+                    (
+                        factor,
+                        Actor::new(motion, display.style.to_render(), colors),
+                    )
+                });
+            }
+        }
+    }
+
+    fn stage_options(&self) -> StageOptions {
+        let display = &self.display;
+        StageOptions {
+            style: display.style.to_render(),
+            axes: if display.axes {
+                AxesShown::Joints
+            } else {
+                AxesShown::None
+            },
+            theme: match self.look {
+                Look::Light => Theme::light(),
+                Look::Dark => Theme::dark(),
+            },
+            follow: display.follow.to_render(),
+            arrangement: match self.shown().count() {
+                // A figure alone stands where its file says: coordinates are those of the grid.
+                0 | 1 => Arrangement::AsRecorded,
+                _ => display.compare.to_render(),
+            },
+            trails: display.trails.then(|| Trails {
+                joints: self.trailed_joints(),
+                seconds: display.trail_secs,
+            }),
+            ghosts: display.ghosts.then_some(Ghosts {
+                every_frames: display.ghost_every_frames.max(1),
+                before: GHOSTS_EACH_SIDE,
+                after: GHOSTS_EACH_SIDE,
+            }),
+            labels: if display.labels {
+                Labels::All
+            } else {
+                Labels::None
+            },
+            ..StageOptions::default()
+        }
+    }
+
+    /// The selected joints, or the ends of the limbs.
+    fn trailed_joints(&self) -> Vec<JointId> {
+        if !self.selection.is_empty() {
+            return self.selection.clone();
+        }
+        self.active_clip().map_or_else(Vec::new, |clip| {
+            let skeleton = clip.skeleton();
+            let is_last = |joint: &JointId| {
+                let children = skeleton.children(*joint);
+                !skeleton.is_end_site(*joint)
+                    && children.iter().all(|&child| skeleton.is_end_site(child))
+            };
+            skeleton.joints().filter(is_last).take(8).collect()
+        })
+    }
+}
+
+impl OpenClip {
+    /// The figure as it stands among the others.
+    pub(super) fn on_stage(&self) -> &Actor {
+        self.scaled.as_ref().map_or(&self.actor, |(_, actor)| actor)
+    }
+
+    /// By how much the figure was made larger to stand beside the active one; 1 for as it is.
+    #[must_use]
+    pub fn scale(&self) -> f32 {
+        self.scaled.as_ref().map_or(1.0, |(factor, _)| *factor)
+    }
+}
+
+pub(super) fn actor_of(clip: &Clip, display: &Display, color: usize) -> Actor {
+    let colors = CharacterColors::of(color);
+    Actor::new(Arc::clone(&clip.motion), display.style.to_render(), colors)
+}

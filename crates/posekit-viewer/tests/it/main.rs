@@ -1,0 +1,16 @@
+//! Integration tests of the viewer.
+
+#![allow(missing_docs, reason = "a test binary has no documentation of its own")]
+#![allow(clippy::print_stderr, reason = "a test that is skipped says so")]
+
+mod arm_lab;
+mod clips;
+mod comparing;
+mod editing;
+mod limbs;
+mod numbers;
+mod pictures;
+mod reading;
+mod real_files;
+mod saving;
+mod window;

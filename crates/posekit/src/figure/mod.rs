@@ -1,0 +1,13 @@
+//! What a skeleton's shape says about the figure: which length unit its file probably uses, and what
+//! kind of pose its rest pose is.
+//!
+//! Both are guesses from lengths and directions. They never change a number; they are for messages,
+//! and for asking instead of assuming.
+
+mod extent;
+mod rest_pose;
+mod unit;
+
+pub use extent::{body_extent, body_joints};
+pub use rest_pose::{ArmPosture, RestPose, RestPoseKind};
+pub use unit::{LengthUnit, STATURE_RANGE_METRES, guess_unit};

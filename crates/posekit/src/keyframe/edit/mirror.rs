@@ -1,0 +1,192 @@
+//! The mirror image of poses and keys: left becomes right.
+//!
+//! **Method.** A joint's rotation is taken as what it turns the rest pose by, in world axes; that turn
+//! is mirrored and given to the joint's partner, again on top of its rest pose. So it does not matter
+//! how the bones' own axes lie, as long as the rest pose itself is symmetric; for skeletons whose rest
+//! rotations are all zero (every BVH) it is the plain reflection of the local rotation. Partners are
+//! [`Skeleton::symmetric_pairs`]; a joint in no pair is mirrored onto itself.
+
+use glam::{DQuat, DVec3};
+
+use super::time::EditError;
+use crate::keyframe::animation::Animation;
+use crate::keyframe::key::{Keyframe, Tangents};
+use crate::keyframe::track::Track;
+use crate::keyframe::value::KeyValue;
+use crate::pose::{GlobalPose, LocalPose};
+use crate::rotation::Axis;
+use crate::skeleton::{JointId, Skeleton};
+
+/// The axis, in world space, that points from one side of a figure to the other.
+pub type MirrorAxis = Axis;
+
+/// The axis that most separates a skeleton's symmetric pairs at rest; X where there are none, which is
+/// right for a figure that faces along Z.
+pub fn mirror_axis(skeleton: &Skeleton) -> MirrorAxis {
+    let rest = GlobalPose::rest(skeleton);
+    let apart = skeleton
+        .symmetric_pairs()
+        .iter()
+        .fold(DVec3::ZERO, |sum, pair| {
+            let [left, right] = [pair.left, pair.right].map(|joint| rest.positions[joint.index()]);
+            sum + (left - right).as_dvec3()
+        });
+    let size = apart.abs();
+    Axis::ALL
+        .into_iter()
+        .rev()
+        .max_by(|a, b| size[a.index()].total_cmp(&size[b.index()]))
+        .unwrap_or(Axis::X)
+}
+
+/// The mirror image of a pose across the plane through the origin, at right angles to an axis.
+///
+/// # Panics
+/// If the pose has not as many joints as the skeleton.
+pub fn mirror_pose(skeleton: &Skeleton, axis: MirrorAxis, pose: &LocalPose) -> LocalPose {
+    assert_eq!(
+        pose.joint_count(),
+        skeleton.joint_count(),
+        "a pose of this skeleton"
+    );
+    let mirror = Mirror::new(skeleton, axis);
+    let mut image = pose.clone();
+    for joint in skeleton.joints() {
+        let way = mirror.way(joint);
+        let rotation = pose.rotations[joint.index()].as_dquat();
+        image.rotations[way.to.index()] = way.rotation(rotation).as_quat();
+        let translation = pose.translations[joint.index()].as_dvec3();
+        image.translations[way.to.index()] = way.vector(translation).as_vec3();
+    }
+    image
+}
+
+/// The mirror image of all tracks across the plane through the origin, at right angles to an axis:
+/// each joint gets its partner's track reflected, its keys moved by `later_secs`. Half a cycle later,
+/// a step of one leg becomes the step of the other.
+///
+/// # Errors
+/// [`EditError::Track`] when `later_secs` is not finite.
+pub fn mirror_animation(
+    animation: &Animation,
+    axis: MirrorAxis,
+    later_secs: f64,
+) -> Result<Animation, EditError> {
+    let skeleton = animation.skeleton();
+    let mirror = Mirror::new(skeleton, axis);
+    let mut image = Animation::new(skeleton.clone());
+    for (joint, track) in animation.rotations() {
+        let way = mirror.way(joint);
+        let track = mapped(track, later_secs, |rotation| way.rotation(rotation))?;
+        image = image.with_rotation(way.to, Some(track));
+    }
+    for (joint, track) in animation.translations() {
+        let way = mirror.way(joint);
+        let track = mapped(track, later_secs, |vector| way.vector(vector))?;
+        image = image.with_translation(way.to, Some(track));
+    }
+    Ok(image)
+}
+
+/// The track with a linear map done to values and slopes, keys moved in time.
+fn mapped<V: KeyValue>(
+    track: &Track<V>,
+    later_secs: f64,
+    map: impl Fn(V) -> V,
+) -> Result<Track<V>, EditError> {
+    let keys = track.keys().iter().map(|key| Keyframe {
+        time_secs: key.time_secs + later_secs,
+        value: map(key.value),
+        interpolation: key.interpolation,
+        tangents: match key.tangents {
+            Tangents::Aligned(tangent) => Tangents::Aligned(map(tangent)),
+            Tangents::Broken { incoming, outgoing } => Tangents::Broken {
+                incoming: map(incoming),
+                outgoing: map(outgoing),
+            },
+            by_neighbours => by_neighbours,
+        },
+    });
+    Ok(Track::with_ends(
+        keys.collect(),
+        track.before(),
+        track.after(),
+    )?)
+}
+
+struct Mirror {
+    axis: Axis,
+    partners: Vec<JointId>,
+    /// World orientation at rest of each joint, and of its parent.
+    rest: Vec<[DQuat; 2]>,
+    /// Rest rotation in the parent's space.
+    rest_local: Vec<DQuat>,
+}
+
+impl Mirror {
+    fn new(skeleton: &Skeleton, axis: Axis) -> Self {
+        let mut partners: Vec<JointId> = skeleton.joints().collect();
+        for pair in skeleton.symmetric_pairs() {
+            partners[pair.left.index()] = pair.right;
+            partners[pair.right.index()] = pair.left;
+        }
+        let global = GlobalPose::rest(skeleton);
+        let orientation = |joint: JointId| global.orientations[joint.index()].as_dquat();
+        let rest = skeleton.joints().map(|joint| {
+            let parent = skeleton.parent(joint).map_or(DQuat::IDENTITY, orientation);
+            [orientation(joint), parent]
+        });
+        let local = skeleton.rest_rotations().iter();
+        Self {
+            axis,
+            partners,
+            rest: rest.collect(),
+            rest_local: local.map(|rotation| rotation.as_dquat()).collect(),
+        }
+    }
+
+    fn way(&self, from: JointId) -> Way {
+        let to = self.partners[from.index()];
+        Way {
+            to,
+            axis: self.axis,
+            parents: [from, to].map(|joint| self.rest[joint.index()][1]),
+            locals: [from, to].map(|joint| self.rest_local[joint.index()]),
+        }
+    }
+}
+
+/// From a joint to its partner.
+struct Way {
+    to: JointId,
+    axis: Axis,
+    /// World orientations of both joints' parents at rest.
+    parents: [DQuat; 2],
+    /// Rest rotations of both joints in their parents' space.
+    locals: [DQuat; 2],
+}
+
+impl Way {
+    fn rotation(&self, rotation: DQuat) -> DQuat {
+        let [parent, parent_to] = self.parents;
+        let [local, local_to] = self.locals;
+        let in_world = parent * rotation * local.conjugate() * parent.conjugate();
+        let image = mirrored_rotation(in_world, self.axis);
+        parent_to.conjugate() * image * parent_to * local_to
+    }
+
+    fn vector(&self, vector: DVec3) -> DVec3 {
+        let [parent, parent_to] = self.parents;
+        let mut in_world = parent * vector;
+        in_world[self.axis.index()] *= -1.0;
+        parent_to.conjugate() * in_world
+    }
+}
+
+/// A reflection turns the axis of a rotation like a point and its sense round: the component along the
+/// mirror's axis keeps its sign, the other two change it.
+fn mirrored_rotation(rotation: DQuat, axis: Axis) -> DQuat {
+    let mut image = -rotation.xyz();
+    image[axis.index()] *= -1.0;
+    DQuat::from_vec4(image.extend(rotation.w))
+}

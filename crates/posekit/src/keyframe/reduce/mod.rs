@@ -1,0 +1,186 @@
+//! A dense motion as few keys, within a stated error.
+//!
+//! **Method.** Each joint's curve is walked from its first frame: the next key is the farthest frame to
+//! which one segment stays within the joint's own tolerance at every frame in between (a greedy choice,
+//! found by doubling and halving). Keys have the motion's values, cubic ones its slopes (central
+//! differences). A joint's tolerance is the least of the stated angle and of the angle that would move its
+//! farthest descendant by a share of the stated distance. How large that share may be depends on how the
+//! errors of a chain add up, and is found by trying: the whole motion is posed again, every joint's
+//! position compared in world space, and the share halved or doubled towards the largest that holds.
+//!
+//! **Guarantees.** At every frame of the motion the local rotation of every joint is within the stated
+//! angle and its global position within the stated distance: that is measured on what is returned, not
+//! inferred. Where no share holds, every frame becomes a key.
+//!
+//! **Cost.** Some tens of evaluations of each joint-frame; `docs/performance.md` has figures.
+
+mod fit;
+mod measure;
+
+use std::sync::Arc;
+
+use super::animation::Animation;
+use super::key::Interpolation;
+use crate::motion::Motion;
+
+pub use measure::KeyError;
+
+/// The least angle that can be asked for, in degrees: what the `f32` of a motion resolves, some times over.
+pub const LEAST_ANGLE_DEG: f64 = 1e-3;
+
+/// The least distance that can be asked for, in skeleton heights, for the same reason.
+pub const LEAST_DISTANCE_HEIGHTS: f64 = 1e-5;
+
+/// How far keys may be from the motion that they stand for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ReduceConfig {
+    /// The largest angle between a joint's local rotations, in degrees; at least [`LEAST_ANGLE_DEG`].
+    pub angle_deg: f64,
+    /// The largest distance between a joint's global positions, in heights of the skeleton; at least
+    /// [`LEAST_DISTANCE_HEIGHTS`].
+    pub distance_heights: f64,
+    /// How keys go on: [`Interpolation::Cubic`] needs fewest; [`Interpolation::Linear`] is slerp.
+    pub interpolation: Interpolation,
+}
+
+impl Default for ReduceConfig {
+    /// A degree and a hundredth of the height, 1.7 cm of a person: no eye sees the difference.
+    fn default() -> Self {
+        Self {
+            angle_deg: 1.0,
+            distance_heights: 0.01,
+            interpolation: Interpolation::Cubic,
+        }
+    }
+}
+
+/// Why a motion was not reduced.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReduceError {
+    /// There is nothing to key.
+    #[error("the motion has no frames")]
+    NoFrames,
+    /// Frames have no times of their own.
+    #[error("the motion's frame time is not positive")]
+    NoFrameTime,
+    /// A rotation or translation is not finite.
+    #[error("the motion has a number that is not finite at frame {frame}")]
+    NotFinite {
+        /// The frame.
+        frame: usize,
+    },
+    /// The angle asked for is not a number, or too small.
+    #[error("the angle is {angle_deg} degrees; it must be at least {LEAST_ANGLE_DEG}")]
+    AngleTooSmall {
+        /// What was asked for, in degrees.
+        angle_deg: f64,
+    },
+    /// The distance asked for is not a number, or too small.
+    #[error(
+        "the distance is {distance_heights} heights; it must be at least {LEAST_DISTANCE_HEIGHTS}"
+    )]
+    DistanceTooSmall {
+        /// What was asked for, in heights of the skeleton.
+        distance_heights: f64,
+    },
+    /// Only linear and cubic keys can be fitted.
+    #[error("keys are reduced to linear or cubic ones")]
+    NoSuchFit,
+}
+
+/// Keys that stand for a motion, and how well.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reduction {
+    /// The keys, at times of frames; the first frame is at 0 s.
+    pub animation: Animation,
+    /// The largest errors at any frame.
+    pub error: KeyError,
+}
+
+/// Reduces a motion to keys.
+///
+/// A joint whose rotation or translation never leaves its tolerance gets one key; one that stays at rest
+/// gets none.
+///
+/// # Errors
+/// [`ReduceError`] when the motion has no frames, no frame time or numbers that are not finite, or the
+/// config asks for less than `f32` resolves.
+pub fn reduce(motion: &Motion, config: &ReduceConfig) -> Result<Reduction, ReduceError> {
+    /// How often the share is halved in search of one that holds, and how often the gap between one that
+    /// holds and one that does not is halved.
+    const ATTEMPTS: [u32; 2] = [8, 4];
+    check(motion, config)?;
+    let truth = measure::Truth::of(motion);
+    let curves = fit::Curves::of(motion);
+    let limit = KeyError {
+        angle_deg: config.angle_deg,
+        distance_heights: config.distance_heights,
+    };
+    let attempt = |share: f64| {
+        let animation = curves.fitted(motion.skeleton(), config, share);
+        let error = truth.error_of(&animation);
+        (error.is_within(&limit)).then_some(Reduction { animation, error })
+    };
+    let (mut share, mut best) = (1.0, attempt(1.0));
+    for _ in 0..ATTEMPTS[0] {
+        if best.is_some() {
+            break;
+        }
+        share *= 0.5;
+        best = attempt(share);
+    }
+    let Some(mut best) = best else {
+        let animation = curves.every_frame(Arc::clone(motion.skeleton()));
+        let error = truth.error_of(&animation);
+        return Ok(Reduction { animation, error });
+    };
+    let (mut holds, mut fails) = (share, 2.0 * share);
+    for _ in 0..ATTEMPTS[1] {
+        let middle = 0.5 * (holds + fails);
+        match attempt(middle) {
+            Some(better) => {
+                holds = middle;
+                // A larger share may happen to need more keys.
+                if better.animation.key_count() <= best.animation.key_count() {
+                    best = better;
+                }
+            }
+            None => fails = middle,
+        }
+    }
+    Ok(best)
+}
+
+fn check(motion: &Motion, config: &ReduceConfig) -> Result<(), ReduceError> {
+    if motion.frame_count() == 0 {
+        return Err(ReduceError::NoFrames);
+    }
+    if motion.frame_time_secs() <= 0.0 {
+        return Err(ReduceError::NoFrameTime);
+    }
+    let ReduceConfig {
+        angle_deg,
+        distance_heights,
+        interpolation,
+    } = *config;
+    if angle_deg.is_nan() || angle_deg < LEAST_ANGLE_DEG {
+        return Err(ReduceError::AngleTooSmall { angle_deg });
+    }
+    if distance_heights.is_nan() || distance_heights < LEAST_DISTANCE_HEIGHTS {
+        return Err(ReduceError::DistanceTooSmall { distance_heights });
+    }
+    if !matches!(interpolation, Interpolation::Linear | Interpolation::Cubic) {
+        return Err(ReduceError::NoSuchFit);
+    }
+    for frame in 0..motion.frame_count() {
+        let mut turning = motion.rotated_joints().iter();
+        let mut moving = motion.translated_joints().iter();
+        let is_finite = turning.all(|&joint| motion.rotation(frame, joint).is_finite())
+            && moving.all(|&joint| motion.translation(frame, joint).is_finite());
+        if !is_finite {
+            return Err(ReduceError::NotFinite { frame });
+        }
+    }
+    Ok(())
+}

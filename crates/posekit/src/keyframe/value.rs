@@ -1,0 +1,385 @@
+//! What a key can hold: a number, a vector or an orientation, and the arithmetic of each between two
+//! keys.
+//!
+//! **Method.** Cubic segments are Hermite polynomials; for orientations they run in the four
+//! components of the quaternion and are normalised, which is the definition of `CUBICSPLINE` in glTF
+//! 2.0 (Khronos 2017, appendix C). Squad is Shoemake's (1987, "Quaternion calculus and fast
+//! animation", SIGGRAPH course notes 10), its inner points chosen from the angular velocity at the key
+//! so that the velocity is continuous where keys are not evenly spaced, too. For numbers and vectors
+//! the same construction is the cubic of Catmull and Rom (1974).
+
+use glam::{DQuat, DVec3};
+
+use crate::rotation::{exp, log, slerp};
+
+/// How far from 1 the length of a key's quaternion may be: that of four decimals, written by hand.
+const UNIT_TOLERANCE: f64 = 1e-3;
+
+/// How much steeper than the flatter neighbour an automatic tangent may be. A cubic whose end slopes
+/// are within three times its chord's does not leave the range of its ends (Fritsch and Carlson 1980,
+/// "Monotone Piecewise Cubic Interpolation", doi:10.1137/0717021).
+const STEEPEST: f64 = 3.0;
+
+/// The most that a squad's velocity at a key may turn over the longer of its two segments. Evenly spaced
+/// keys never ask for more; next to a short segment a long one would, and its inner point would lie more
+/// than half a turn away, where there is no telling which way to it is meant.
+const MOST_SQUAD_TURN_RAD: f64 = std::f64::consts::PI;
+
+/// What a key can hold: `f64`, [`DVec3`] or [`DQuat`], the last an orientation.
+pub trait KeyValue: Value {}
+
+impl KeyValue for f64 {}
+impl KeyValue for DVec3 {}
+impl KeyValue for DQuat {}
+
+/// What is wrong with a value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ValueFault {
+    /// A component is NaN or infinite.
+    NotFinite,
+    /// The quaternion is not of unit length.
+    NotUnit(f64),
+}
+
+/// The two velocities that meet at a key and the seconds that each lasts.
+#[derive(Clone, Copy, Debug)]
+pub struct Meeting<T> {
+    /// Velocity of the straight way from the key before.
+    pub before: T,
+    /// Seconds since the key before.
+    pub secs_before: f64,
+    /// Velocity of the straight way to the key after.
+    pub after: T,
+    /// Seconds until the key after.
+    pub secs_after: f64,
+}
+
+/// The arithmetic between keys. Not part of the public face: the trait cannot be named outside.
+pub trait Value: Copy + PartialEq + std::fmt::Debug + Send + Sync + 'static {
+    /// A change per second; of an orientation the angular velocity in body coordinates.
+    type Velocity: Copy + Default + PartialEq + std::fmt::Debug;
+
+    /// What is wrong with it as a key's value, if anything.
+    fn fault(self) -> Option<ValueFault>;
+
+    /// Whether every component is finite.
+    fn is_finite(self) -> bool;
+
+    /// As it is used: an orientation at unit length.
+    fn normalized(self) -> Self;
+
+    /// Whether the sign must change for the short way from `previous`.
+    fn is_far_side(self, previous: Self) -> bool;
+
+    /// Times a number.
+    fn scaled(self, factor: f64) -> Self;
+
+    /// The constant velocity of the straight way.
+    fn velocity(from: Self, to: Self, secs: f64) -> Self::Velocity;
+
+    /// The velocity at a key on a parabola through its neighbours (Catmull and Rom for evenly spaced
+    /// keys).
+    fn smooth_velocity(meeting: Meeting<Self::Velocity>) -> Self::Velocity;
+
+    /// The same, made flat at extrema and no steeper than keeps the curve within its keys.
+    fn clamped_velocity(meeting: Meeting<Self::Velocity>) -> Self::Velocity;
+
+    /// The derivative at a value that has a velocity.
+    fn tangent(self, velocity: Self::Velocity) -> Self;
+
+    /// The straight way at an even pace.
+    fn straight(from: Self, to: Self, t: f64) -> Self;
+
+    /// The cubic with the given derivatives over the whole way (per unit of `t`).
+    fn hermite(from: Self, from_slope: Self, to: Self, to_slope: Self, t: f64) -> Self;
+
+    /// [`smooth_velocity`](Self::smooth_velocity), kept within what a squad can do.
+    fn squad_velocity(meeting: Meeting<Self::Velocity>) -> Self::Velocity {
+        Self::smooth_velocity(meeting)
+    }
+
+    /// What [`squad`](Self::squad) wants at both ends, given the change at each end over the way.
+    fn squad_controls(from: Self, to: Self, changes: [Self::Velocity; 2], secs: f64) -> [Self; 2];
+
+    /// The quadrangle's curve.
+    fn squad(from: Self, from_control: Self, to: Self, to_control: Self, t: f64) -> Self;
+
+    /// Moved by so many times the way from `first` to `last`.
+    fn shifted(self, first: Self, last: Self, times: f64) -> Self;
+
+    /// A derivative of a value, after that value was moved by the way from `first` to `last`.
+    fn slope_shifted(self, first: Self, last: Self) -> Self;
+}
+
+/// The weights of a cubic Hermite segment: start value, start slope, end value, end slope.
+pub(crate) fn hermite_weights(t: f64) -> [f64; 4] {
+    let s = 1.0 - t;
+    [
+        s * s * (1.0 + 2.0 * t),
+        t * s * s,
+        t * t * (1.0 + 2.0 * s),
+        -t * t * s,
+    ]
+}
+
+impl Value for f64 {
+    type Velocity = Self;
+
+    fn fault(self) -> Option<ValueFault> {
+        (!self.is_finite()).then_some(ValueFault::NotFinite)
+    }
+
+    fn is_finite(self) -> bool {
+        Self::is_finite(self)
+    }
+
+    fn normalized(self) -> Self {
+        self
+    }
+
+    fn is_far_side(self, _previous: Self) -> bool {
+        false
+    }
+
+    fn scaled(self, factor: f64) -> Self {
+        self * factor
+    }
+
+    fn velocity(from: Self, to: Self, secs: f64) -> Self {
+        (to - from) / secs
+    }
+
+    fn smooth_velocity(meeting: Meeting<Self>) -> Self {
+        let Meeting {
+            before,
+            secs_before,
+            after,
+            secs_after,
+        } = meeting;
+        (secs_before * after + secs_after * before) / (secs_before + secs_after)
+    }
+
+    fn clamped_velocity(meeting: Meeting<Self>) -> Self {
+        let (before, after) = (meeting.before, meeting.after);
+        if before * after <= 0.0 {
+            return 0.0;
+        }
+        let steepest = STEEPEST * before.abs().min(after.abs());
+        Self::smooth_velocity(meeting).clamp(-steepest, steepest)
+    }
+
+    fn tangent(self, velocity: Self) -> Self {
+        velocity
+    }
+
+    fn straight(from: Self, to: Self, t: f64) -> Self {
+        from * (1.0 - t) + to * t
+    }
+
+    fn hermite(from: Self, from_slope: Self, to: Self, to_slope: Self, t: f64) -> Self {
+        let [a, b, c, d] = hermite_weights(t);
+        from * a + from_slope * b + to * c + to_slope * d
+    }
+
+    fn squad_controls(_from: Self, _to: Self, changes: [Self; 2], secs: f64) -> [Self; 2] {
+        changes.map(|velocity| velocity * secs)
+    }
+
+    fn squad(from: Self, from_control: Self, to: Self, to_control: Self, t: f64) -> Self {
+        Self::hermite(from, from_control, to, to_control, t)
+    }
+
+    fn shifted(self, first: Self, last: Self, times: f64) -> Self {
+        self + (last - first) * times
+    }
+
+    fn slope_shifted(self, _first: Self, _last: Self) -> Self {
+        self
+    }
+}
+
+impl Value for DVec3 {
+    type Velocity = Self;
+
+    fn fault(self) -> Option<ValueFault> {
+        (!Self::is_finite(self)).then_some(ValueFault::NotFinite)
+    }
+
+    fn is_finite(self) -> bool {
+        Self::is_finite(self)
+    }
+
+    fn normalized(self) -> Self {
+        self
+    }
+
+    fn is_far_side(self, _previous: Self) -> bool {
+        false
+    }
+
+    fn scaled(self, factor: f64) -> Self {
+        self * factor
+    }
+
+    fn velocity(from: Self, to: Self, secs: f64) -> Self {
+        (to - from) / secs
+    }
+
+    fn smooth_velocity(meeting: Meeting<Self>) -> Self {
+        per_component(meeting, f64::smooth_velocity)
+    }
+
+    fn clamped_velocity(meeting: Meeting<Self>) -> Self {
+        per_component(meeting, f64::clamped_velocity)
+    }
+
+    fn tangent(self, velocity: Self) -> Self {
+        velocity
+    }
+
+    fn straight(from: Self, to: Self, t: f64) -> Self {
+        from * (1.0 - t) + to * t
+    }
+
+    fn hermite(from: Self, from_slope: Self, to: Self, to_slope: Self, t: f64) -> Self {
+        let [a, b, c, d] = hermite_weights(t);
+        from * a + from_slope * b + to * c + to_slope * d
+    }
+
+    fn squad_controls(_from: Self, _to: Self, changes: [Self; 2], secs: f64) -> [Self; 2] {
+        changes.map(|velocity| velocity * secs)
+    }
+
+    fn squad(from: Self, from_control: Self, to: Self, to_control: Self, t: f64) -> Self {
+        Self::hermite(from, from_control, to, to_control, t)
+    }
+
+    fn shifted(self, first: Self, last: Self, times: f64) -> Self {
+        self + (last - first) * times
+    }
+
+    fn slope_shifted(self, _first: Self, _last: Self) -> Self {
+        self
+    }
+}
+
+/// Slerp between the quaternions as they are, not the short way between the rotations: the two curves
+/// that a squad mixes may lie more than half a turn apart in the middle, and must not jump there.
+fn along_arc(from: DQuat, to: DQuat, t: f64) -> DQuat {
+    let arc = 2.0 * libm::atan2((to - from).length(), (to + from).length());
+    let sin = libm::sin(arc);
+    // Antipodes, and neighbours: the chord is the arc, or as good as any.
+    if sin < 1e-8 {
+        return (from * (1.0 - t) + to * t).normalize();
+    }
+    (from * libm::sin((1.0 - t) * arc) + to * libm::sin(t * arc)) * (1.0 / sin)
+}
+
+fn per_component(meeting: Meeting<DVec3>, rule: fn(Meeting<f64>) -> f64) -> DVec3 {
+    let (before, after) = (meeting.before.to_array(), meeting.after.to_array());
+    DVec3::from_array(std::array::from_fn(|axis| {
+        rule(Meeting {
+            before: before[axis],
+            secs_before: meeting.secs_before,
+            after: after[axis],
+            secs_after: meeting.secs_after,
+        })
+    }))
+}
+
+impl Value for DQuat {
+    type Velocity = DVec3;
+
+    fn fault(self) -> Option<ValueFault> {
+        if !Self::is_finite(self) {
+            return Some(ValueFault::NotFinite);
+        }
+        let length = self.length();
+        ((length - 1.0).abs() > UNIT_TOLERANCE).then_some(ValueFault::NotUnit(length))
+    }
+
+    fn is_finite(self) -> bool {
+        Self::is_finite(self)
+    }
+
+    fn normalized(self) -> Self {
+        self.normalize()
+    }
+
+    fn is_far_side(self, previous: Self) -> bool {
+        self.dot(previous) < 0.0
+    }
+
+    fn scaled(self, factor: f64) -> Self {
+        self * factor
+    }
+
+    fn velocity(from: Self, to: Self, secs: f64) -> DVec3 {
+        log(from.conjugate() * to) / secs
+    }
+
+    fn smooth_velocity(meeting: Meeting<DVec3>) -> DVec3 {
+        DVec3::smooth_velocity(meeting)
+    }
+
+    /// Per component it would depend on how the bone's axes lie, so the rule of numbers is applied to
+    /// lengths: the cosine between the two velocities takes the place of the question whether they
+    /// have one sign.
+    fn clamped_velocity(meeting: Meeting<DVec3>) -> DVec3 {
+        let (before, after) = (meeting.before, meeting.after);
+        let (slow, fast) = (before.length(), after.length());
+        let along = before.dot(after);
+        if along <= 0.0 {
+            return DVec3::ZERO;
+        }
+        let steepest = STEEPEST * slow.min(fast) * (along / (slow * fast)).min(1.0);
+        DVec3::smooth_velocity(meeting).clamp_length_max(steepest)
+    }
+
+    fn tangent(self, velocity: DVec3) -> Self {
+        self * Self::from_vec4((velocity * 0.5).extend(0.0))
+    }
+
+    fn straight(from: Self, to: Self, t: f64) -> Self {
+        slerp(from, to, t)
+    }
+
+    fn hermite(from: Self, from_slope: Self, to: Self, to_slope: Self, t: f64) -> Self {
+        let [a, b, c, d] = hermite_weights(t);
+        let sum = from * a + from_slope * b + to * c + to_slope * d;
+        // Tangents can be chosen so that the curve passes through zero; no direction is right there.
+        let length = sum.length();
+        if length > f64::MIN_POSITIVE {
+            sum * (1.0 / length)
+        } else {
+            from
+        }
+    }
+
+    fn squad_velocity(meeting: Meeting<DVec3>) -> DVec3 {
+        let longest = meeting.secs_before.max(meeting.secs_after);
+        DVec3::smooth_velocity(meeting).clamp_length_max(MOST_SQUAD_TURN_RAD / longest)
+    }
+
+    fn squad_controls(from: Self, to: Self, changes: [DVec3; 2], secs: f64) -> [Self; 2] {
+        let way = log(from.conjugate() * to);
+        [
+            from * exp((changes[0] * secs - way) * 0.5),
+            to * exp((way - changes[1] * secs) * 0.5),
+        ]
+    }
+
+    fn squad(from: Self, from_control: Self, to: Self, to_control: Self, t: f64) -> Self {
+        let outer = along_arc(from, to, t);
+        let inner = along_arc(from_control, to_control, t);
+        along_arc(outer, inner, 2.0 * t * (1.0 - t))
+    }
+
+    fn shifted(self, first: Self, last: Self, times: f64) -> Self {
+        exp(log(last * first.conjugate()) * times) * self
+    }
+
+    fn slope_shifted(self, first: Self, last: Self) -> Self {
+        self.shifted(first, last, 1.0)
+    }
+}

@@ -1,0 +1,8 @@
+//! Inverse kinematics: every solver through one suite, and what each does alone.
+
+mod conformance;
+mod figures;
+mod limits;
+mod long_runs;
+mod single;
+mod suite;

@@ -1,0 +1,199 @@
+//! Rows of channel values as files have them: any channels in any order, and both policies for
+//! OFFSETs. Elementary rotations are multiplied as matrices in double precision to compare with.
+
+use std::sync::Arc;
+
+use glam::{DMat3, DQuat, DVec3, Vec3};
+use posekit::motion::{Channel, ChannelLayout, Motion, PositionPolicy};
+use posekit::rotation::Axis;
+use posekit::skeleton::{JointId, SkeletonBuilder};
+use proptest::prelude::*;
+
+use crate::figures::{angle_rad, any_skeleton, hand_drawn};
+
+const AXES: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];
+
+fn elementary(axis: Axis, degrees: f64) -> DMat3 {
+    let angle = degrees.to_radians();
+    match axis {
+        Axis::X => DMat3::from_rotation_x(angle),
+        Axis::Y => DMat3::from_rotation_y(angle),
+        Axis::Z => DMat3::from_rotation_z(angle),
+    }
+}
+
+/// The local rotation and translation that one row gives a joint.
+fn expected(
+    motion: &Motion,
+    layout: &ChannelLayout,
+    row: &[f64],
+    joint: JointId,
+    policy: PositionPolicy,
+) -> (DQuat, DVec3) {
+    let skeleton = motion.skeleton();
+    let offset = skeleton.rest_translation(joint).as_dvec3();
+    let adds = policy == PositionPolicy::AddToRootOffset && skeleton.parent(joint).is_none();
+    let mut translation = offset;
+    let mut rotation = None;
+    let columns = layout.columns().iter().zip(row);
+    for (&(_, channel), &value) in columns.filter(|((other, _), _)| *other == joint) {
+        match channel {
+            Channel::Position(axis) => {
+                let base = if adds { offset[axis.index()] } else { 0.0 };
+                translation[axis.index()] = base + value;
+            }
+            Channel::Rotation(axis) => {
+                rotation = Some(rotation.unwrap_or(DMat3::IDENTITY) * elementary(axis, value));
+            }
+        }
+    }
+    let at_rest = skeleton.rest_rotation(joint).as_dquat().normalize();
+    (
+        rotation.map_or(at_rest, |matrix| DQuat::from_mat3(&matrix)),
+        translation,
+    )
+}
+
+/// Up to seven channels on any joint that is no End Site, in any order, repeats among them.
+fn any_layout(joints: Vec<JointId>) -> impl Strategy<Value = ChannelLayout> {
+    let channel = (any::<bool>(), 0_usize..3).prop_map(|(moves, axis)| match moves {
+        true => Channel::Position(AXES[axis]),
+        false => Channel::Rotation(AXES[axis]),
+    });
+    let columns = proptest::collection::vec((proptest::sample::select(joints), channel), 1..40);
+    columns.prop_map(ChannelLayout::new)
+}
+
+/// A motion's skeleton, what its columns mean, and whole rows of values.
+fn any_rows() -> impl Strategy<Value = (Arc<posekit::skeleton::Skeleton>, ChannelLayout, Vec<f64>)>
+{
+    any_skeleton().prop_flat_map(|skeleton| {
+        let joints = skeleton
+            .joints()
+            .filter(|&joint| !skeleton.is_end_site(joint));
+        any_layout(joints.collect()).prop_flat_map(move |layout| {
+            let skeleton = Arc::clone(&skeleton);
+            (0_usize..19).prop_flat_map(move |frame_count| {
+                let values = frame_count * layout.column_count();
+                let rows = proptest::collection::vec(-720.0_f64..720.0, values);
+                (Just(Arc::clone(&skeleton)), Just(layout.clone()), rows)
+            })
+        })
+    })
+}
+
+proptest! {
+    #[test]
+    fn every_joint_of_every_frame_is_the_product_of_its_channels(
+        (skeleton, layout, rows) in any_rows(),
+        adds: bool,
+    ) {
+        let policy = match adds {
+            true => PositionPolicy::AddToRootOffset,
+            false => PositionPolicy::Replace,
+        };
+        let motion = Motion::from_channel_rows(Arc::clone(&skeleton), 0.04, &layout, &rows, policy);
+        prop_assert_eq!(motion.frame_count(), rows.len() / layout.column_count());
+        for (frame, row) in rows.chunks_exact(layout.column_count()).enumerate() {
+            for joint in skeleton.joints() {
+                let (rotation, translation) = expected(&motion, &layout, row, joint, policy);
+                let angle = angle_rad(motion.rotation(frame, joint), rotation.as_quat());
+                prop_assert!(angle < 5e-6, "{} rad at frame {}, {:?}", angle, frame, joint);
+                let apart = motion.translation(frame, joint).as_dvec3().distance(translation);
+                prop_assert!(apart < 1e-4, "{} apart", apart);
+            }
+        }
+    }
+
+    /// Values after the last whole row are not used.
+    #[test]
+    fn a_partial_last_row_is_left_out((skeleton, layout, mut rows) in any_rows(), more in 1_usize..40) {
+        let whole = rows.len() / layout.column_count();
+        rows.extend(std::iter::repeat_n(1.0, more % layout.column_count()));
+        let motion = Motion::from_channel_rows(skeleton, 0.04, &layout, &rows, PositionPolicy::Replace);
+        prop_assert_eq!(motion.frame_count(), whole);
+    }
+}
+
+/// The root of a figure with OFFSET (3, -2, 1), its channels at (10, 20, 30).
+fn root_translation(channels: &[Channel], policy: PositionPolicy) -> Vec3 {
+    let mut builder = SkeletonBuilder::new();
+    let root = builder.joint("root", None, Vec3::new(3.0, -2.0, 1.0));
+    let layout = ChannelLayout::new(channels.iter().map(|&channel| (root, channel)));
+    let row: Vec<f64> = channels
+        .iter()
+        .map(|channel| match channel {
+            Channel::Position(Axis::X) => 10.0,
+            Channel::Position(Axis::Y) => 20.0,
+            Channel::Position(Axis::Z) => 30.0,
+            Channel::Rotation(_) => 0.0,
+        })
+        .collect();
+    let skeleton = Arc::new(builder.build().unwrap());
+    Motion::from_channel_rows(skeleton, 0.04, &layout, &row, policy).translation(0, root)
+}
+
+#[test]
+fn channels_replace_the_offset_or_are_added_to_it() {
+    let all = AXES.map(Channel::Position);
+    let (replace, add) = (PositionPolicy::Replace, PositionPolicy::AddToRootOffset);
+    assert_eq!(root_translation(&all, replace), Vec3::new(10.0, 20.0, 30.0));
+    assert_eq!(root_translation(&all, add), Vec3::new(13.0, 18.0, 31.0));
+    // A coordinate without a channel stays at the OFFSET, whatever the policy.
+    let two = [Channel::Position(Axis::Z), Channel::Position(Axis::X)];
+    assert_eq!(root_translation(&two, replace), Vec3::new(10.0, -2.0, 30.0));
+    assert_eq!(root_translation(&two, add), Vec3::new(13.0, -2.0, 31.0));
+    let none = [Channel::Rotation(Axis::Z)];
+    assert_eq!(root_translation(&none, replace), Vec3::new(3.0, -2.0, 1.0));
+    assert_eq!(root_translation(&none, add), Vec3::new(3.0, -2.0, 1.0));
+}
+
+#[test]
+fn only_roots_add() {
+    let skeleton = Arc::new(hand_drawn());
+    let (foot, prop) = (JointId::new(5), JointId::new(8));
+    let layout = ChannelLayout::new([
+        (foot, Channel::Position(Axis::Y)),
+        (prop, Channel::Position(Axis::X)),
+    ]);
+    let rows = [-7.0, 7.0];
+    let policy = PositionPolicy::AddToRootOffset;
+    let motion = Motion::from_channel_rows(skeleton, 0.04, &layout, &rows, policy);
+    assert_eq!(motion.translation(0, foot), Vec3::new(0.0, -7.0, 0.0));
+    assert_eq!(motion.translation(0, prop), Vec3::new(10.0, 0.0, 0.0));
+}
+
+#[test]
+fn angles_of_many_turns_keep_their_precision() {
+    let skeleton = Arc::new(hand_drawn());
+    let layout = ChannelLayout::new([(JointId::new(0), Channel::Rotation(Axis::Y))]);
+    for turns in [1.0, 1e3, 1e6, -1e6] {
+        let rows = [30.0 + 360.0 * turns];
+        let motion = Motion::from_channel_rows(
+            Arc::clone(&skeleton),
+            0.04,
+            &layout,
+            &rows,
+            PositionPolicy::Replace,
+        );
+        let expected = glam::Quat::from_rotation_y(30.0_f32.to_radians());
+        assert!(
+            angle_rad(motion.rotation(0, JointId::new(0)), expected) < 1e-6,
+            "{turns} turns"
+        );
+    }
+}
+
+#[test]
+fn a_layout_without_columns_makes_no_frames() {
+    let layout = ChannelLayout::default();
+    let skeleton = Arc::new(hand_drawn());
+    let motion = Motion::from_channel_rows(
+        skeleton,
+        0.04,
+        &layout,
+        &[1.0, 2.0],
+        PositionPolicy::Replace,
+    );
+    assert_eq!(motion.frame_count(), 0);
+}

@@ -1,0 +1,4 @@
+//! Mechanisms and robots.
+
+mod mechanisms;
+mod two_link;
