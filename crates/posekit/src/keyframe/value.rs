@@ -122,6 +122,40 @@ pub(crate) fn hermite_weights(t: f64) -> [f64; 4] {
     ]
 }
 
+/// What numbers and vectors have in common: sums and multiples.
+macro_rules! linear_ways {
+    () => {
+        fn tangent(self, velocity: Self) -> Self {
+            velocity
+        }
+
+        fn straight(from: Self, to: Self, t: f64) -> Self {
+            from * (1.0 - t) + to * t
+        }
+
+        fn hermite(from: Self, from_slope: Self, to: Self, to_slope: Self, t: f64) -> Self {
+            let [a, b, c, d] = hermite_weights(t);
+            from * a + from_slope * b + to * c + to_slope * d
+        }
+
+        fn squad_controls(_from: Self, _to: Self, changes: [Self; 2], secs: f64) -> [Self; 2] {
+            changes.map(|velocity| velocity * secs)
+        }
+
+        fn squad(from: Self, from_control: Self, to: Self, to_control: Self, t: f64) -> Self {
+            Self::hermite(from, from_control, to, to_control, t)
+        }
+
+        fn shifted(self, first: Self, last: Self, times: f64) -> Self {
+            self + (last - first) * times
+        }
+
+        fn slope_shifted(self, _first: Self, _last: Self) -> Self {
+            self
+        }
+    };
+}
+
 impl Value for f64 {
     type Velocity = Self;
 
@@ -168,34 +202,7 @@ impl Value for f64 {
         Self::smooth_velocity(meeting).clamp(-steepest, steepest)
     }
 
-    fn tangent(self, velocity: Self) -> Self {
-        velocity
-    }
-
-    fn straight(from: Self, to: Self, t: f64) -> Self {
-        from * (1.0 - t) + to * t
-    }
-
-    fn hermite(from: Self, from_slope: Self, to: Self, to_slope: Self, t: f64) -> Self {
-        let [a, b, c, d] = hermite_weights(t);
-        from * a + from_slope * b + to * c + to_slope * d
-    }
-
-    fn squad_controls(_from: Self, _to: Self, changes: [Self; 2], secs: f64) -> [Self; 2] {
-        changes.map(|velocity| velocity * secs)
-    }
-
-    fn squad(from: Self, from_control: Self, to: Self, to_control: Self, t: f64) -> Self {
-        Self::hermite(from, from_control, to, to_control, t)
-    }
-
-    fn shifted(self, first: Self, last: Self, times: f64) -> Self {
-        self + (last - first) * times
-    }
-
-    fn slope_shifted(self, _first: Self, _last: Self) -> Self {
-        self
-    }
+    linear_ways!();
 }
 
 impl Value for DVec3 {
@@ -233,34 +240,7 @@ impl Value for DVec3 {
         per_component(meeting, f64::clamped_velocity)
     }
 
-    fn tangent(self, velocity: Self) -> Self {
-        velocity
-    }
-
-    fn straight(from: Self, to: Self, t: f64) -> Self {
-        from * (1.0 - t) + to * t
-    }
-
-    fn hermite(from: Self, from_slope: Self, to: Self, to_slope: Self, t: f64) -> Self {
-        let [a, b, c, d] = hermite_weights(t);
-        from * a + from_slope * b + to * c + to_slope * d
-    }
-
-    fn squad_controls(_from: Self, _to: Self, changes: [Self; 2], secs: f64) -> [Self; 2] {
-        changes.map(|velocity| velocity * secs)
-    }
-
-    fn squad(from: Self, from_control: Self, to: Self, to_control: Self, t: f64) -> Self {
-        Self::hermite(from, from_control, to, to_control, t)
-    }
-
-    fn shifted(self, first: Self, last: Self, times: f64) -> Self {
-        self + (last - first) * times
-    }
-
-    fn slope_shifted(self, _first: Self, _last: Self) -> Self {
-        self
-    }
+    linear_ways!();
 }
 
 /// Slerp between the quaternions as they are, not the short way between the rotations: the two curves

@@ -1,5 +1,6 @@
 //! Forward kinematics of a whole motion.
 
+use std::fmt;
 use std::sync::Arc;
 
 use glam::{Quat, Vec3};
@@ -12,13 +13,24 @@ use crate::pose::GlobalPose;
 use crate::skeleton::{JointId, Skeleton};
 
 /// World-space positions and orientations of every joint in every frame of a [`Motion`].
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct GlobalMotion {
     skeleton: Arc<Skeleton>,
     frame_count: usize,
     frame_time_secs: f64,
     /// Block after block, all joints.
     transforms: Vec<TransformLanes>,
+}
+
+/// How large it is, not its millions of numbers.
+impl fmt::Debug for GlobalMotion {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("GlobalMotion")
+            .field("joints", &self.skeleton.joint_count())
+            .field("frames", &self.frame_count)
+            .field("frame_time_secs", &self.frame_time_secs)
+            .finish_non_exhaustive()
+    }
 }
 
 /// Eight frames of one joint in the world. Position and orientation of a parent are always used

@@ -15,6 +15,7 @@ mod global;
 #[cfg(test)]
 mod same_bits;
 
+use std::fmt;
 use std::sync::Arc;
 
 use glam::{Quat, Vec3};
@@ -32,7 +33,7 @@ pub use global::GlobalMotion;
 const NO_TRACK: u32 = u32::MAX;
 
 /// Time-varying data of a skeleton: frames x joints of local transforms, at a uniform frame time.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Motion {
     skeleton: Arc<Skeleton>,
     frame_count: usize,
@@ -74,6 +75,19 @@ impl Tracks {
     fn slot(&self, joint: JointId) -> Option<usize> {
         let slot = self.slot_of_joint[joint.index()];
         (slot != NO_TRACK).then_some(slot as usize)
+    }
+}
+
+/// How large it is, not its millions of numbers.
+impl fmt::Debug for Motion {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Motion")
+            .field("joints", &self.skeleton.joint_count())
+            .field("frames", &self.frame_count)
+            .field("frame_time_secs", &self.frame_time_secs)
+            .field("rotated", &self.rotated.len())
+            .field("translated", &self.translated.len())
+            .finish_non_exhaustive()
     }
 }
 

@@ -460,3 +460,12 @@ fn every_name_has_a_sample() {
     assert_eq!(humanoid.symmetric_pairs().len(), 10);
     assert!(posekit::sample::robot_arm().symmetric_pairs().is_empty());
 }
+
+#[test]
+fn the_debug_text_of_a_motion_tells_its_size_and_not_every_number() {
+    let motion = posekit::sample::walk(&posekit::sample::WalkConfig::default()).unwrap();
+    for text in [format!("{motion:?}"), format!("{:?}", motion.to_global())] {
+        let frames = format!("frames: {}", motion.frame_count());
+        assert!(text.contains(&frames) && text.len() < 200, "{text}");
+    }
+}
