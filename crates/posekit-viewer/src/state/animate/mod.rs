@@ -1,0 +1,3 @@
+//! Authored motion.
+
+pub mod channel;
