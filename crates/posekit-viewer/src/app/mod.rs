@@ -10,7 +10,6 @@ use std::path::PathBuf;
 
 use eframe::egui_wgpu::RenderState;
 use egui::Ui;
-use posekit::sample::{WalkConfig, walk};
 use posekit_render::render::RendererChoice;
 
 use crate::load::{Input, JobId, Listing, Loader, Purpose};
@@ -169,8 +168,7 @@ impl Viewer {
     }
 
     fn open_sample(&mut self, ctx: &egui::Context) {
-        if let Ok(motion) = walk(&WalkConfig::default()) {
-            let clip = Clip::from_motion("Sample walk", motion);
+        if let Some(clip) = Clip::of_sample("Sample walk", "walk") {
             let picture = to_color_image(&thumbnail(&clip));
             let id = self.session.open(clip);
             self.opened(ctx, id, picture);
