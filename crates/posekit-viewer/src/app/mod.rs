@@ -1,6 +1,7 @@
 //! The application: state, panels and work brought together.
 
 mod act;
+mod animate;
 mod events;
 mod lab;
 mod layout;
@@ -19,6 +20,7 @@ use crate::panels::curves::CurvePanel;
 use crate::panels::export::ExportWindow;
 use crate::panels::joints::JointTree;
 use crate::panels::library::Preview;
+use crate::panels::timeline::Timeline;
 use crate::picture::painter::Painter;
 use crate::picture::thumbnail::thumbnail;
 use crate::picture::{Texture, to_color_image};
@@ -68,6 +70,7 @@ pub struct Viewer {
     to_check: BTreeSet<ClipId>,
     tree: JointTree,
     curves: CurvePanel,
+    timeline: Timeline,
     notices: Notices,
     layout: WindowLayout,
     help_open: bool,
@@ -110,6 +113,7 @@ impl Viewer {
             to_check: BTreeSet::new(),
             tree: JointTree::default(),
             curves: CurvePanel::default(),
+            timeline: Timeline::default(),
             notices: Notices::default(),
             layout: settings.layout,
             help_open: false,

@@ -6,7 +6,7 @@ use super::Command;
 use crate::gizmo::Tool;
 use crate::state::camera::ViewCamera;
 use crate::state::display::{FollowMode, Look, PoseShown};
-use crate::state::session::{Handles, Session};
+use crate::state::session::{Handles, KeyWhat, Session};
 use crate::state::transport::AtEnd;
 
 /// One step of turning the view with the keys, radians: fifteen degrees, as in Blender.
@@ -50,6 +50,20 @@ fn apply_to_edits(command: Command, session: &mut Session) -> bool {
         Command::ToggleSnap => tools.snaps = !tools.snaps,
         Command::Undo => drop(session.undo()),
         Command::Redo => drop(session.redo()),
+        Command::InsertKeys => {
+            session.insert_keys(KeyWhat::Selected);
+        }
+        Command::KeyWholePose => {
+            session.insert_keys(KeyWhat::Whole);
+        }
+        Command::ToggleAutoKey | Command::ToggleUseIk => {
+            let mut settings = session.animate();
+            match command {
+                Command::ToggleAutoKey => settings.auto_key = !settings.auto_key,
+                _ => settings.uses_ik = !settings.uses_ik,
+            }
+            session.set_animate(settings);
+        }
         Command::KeepPose => session.keep_draft(),
         Command::ResetPose => session.reset_draft(),
         _ => return false,

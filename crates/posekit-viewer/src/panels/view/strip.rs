@@ -84,11 +84,7 @@ fn tool_choice(ui: &mut Ui, session: &Session, asked: &mut Asked) {
 }
 
 fn undo_buttons(ui: &mut Ui, session: &Session, asked: &mut Asked) {
-    let names = session.edits().map(|edits| {
-        let name = |name: Option<&str>| name.map(str::to_owned);
-        (name(edits.undo_name()), name(edits.redo_name()))
-    });
-    let (undo, redo) = names.unwrap_or_default();
+    let (undo, redo) = session.step_names();
     for (icon, name, verb, command) in [
         (Icon::Undo, undo, "Undo", Command::Undo),
         (Icon::Redo, redo, "Redo", Command::Redo),
@@ -160,6 +156,12 @@ fn text(session: &Session) -> String {
     let clip = session.active_clip();
     if clip.is_some_and(|clip| clip.frame_count() == 0) {
         return "This clip has no frames to edit".to_owned();
+    }
+    if session.mode() == Mode::Animate && session.authored().is_none() {
+        return "Choose below how this clip is animated".to_owned();
+    }
+    if session.has_pending_pose() {
+        return "I: key this pose  \u{b7}  Alt+R: give it up".to_owned();
     }
     if !session.can_edit() {
         return "The rest pose is shown; the motion can be edited  (R)".to_owned();

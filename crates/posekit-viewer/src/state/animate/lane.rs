@@ -290,7 +290,9 @@ pub(super) fn put_track(
             true
         }
         (Lane::Rotation(_) | Lane::Translation(_), None) => {
-            scene.tracks.retain(|track| lane_of(track, skeleton) != Some(lane));
+            scene
+                .tracks
+                .retain(|track| lane_of(track, skeleton) != Some(lane));
             true
         }
         (Lane::Rotation(_) | Lane::Translation(_), Some(_)) => false,
@@ -341,12 +343,7 @@ fn put_rotation(
     true
 }
 
-fn put_translation(
-    scene: &mut Scene,
-    skeleton: &Skeleton,
-    joint: JointId,
-    new: Arc<Track<DVec3>>,
-) {
+fn put_translation(scene: &mut Scene, skeleton: &Skeleton, joint: JointId, new: Arc<Track<DVec3>>) {
     let lane = Some(Lane::Translation(joint));
     for old in &mut scene.tracks {
         let is_it = lane_of(old, skeleton) == lane;

@@ -3,9 +3,7 @@
 use std::sync::Arc;
 
 use posekit::keyframe::edit::{KeyPoseConfig, KeyedJoints, key_pose};
-use posekit::keyframe::{
-    Animation, Extrapolation, Interpolation, ReduceConfig, reduce,
-};
+use posekit::keyframe::{Animation, Extrapolation, Interpolation, ReduceConfig, reduce};
 use posekit::motion::Motion;
 use posekit::pose::LocalPose;
 use posekit_formats::scene::{MotionLayer, SAMPLE_PREFIX, Scene, SkeletonSource};

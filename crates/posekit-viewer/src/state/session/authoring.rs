@@ -160,7 +160,8 @@ impl Session {
 
     /// The clip's motion anew, after its scene has changed.
     fn rebake(&mut self, id: ClipId, moved_secs: f64) {
-        let (Some(authored), Some(index)) = (self.authoring.open.get(&id), self.index_of(id)) else {
+        let (Some(authored), Some(index)) = (self.authoring.open.get(&id), self.index_of(id))
+        else {
             return;
         };
         let motion = Arc::new(authored.bake());

@@ -153,8 +153,7 @@ impl Session {
             return;
         };
         let shown = pose.as_ref().or(self.pending_pose());
-        let global = shown
-            .map(|pose| Arc::new(pose.to_global(clip.skeleton())));
+        let global = shown.map(|pose| Arc::new(pose.to_global(clip.skeleton())));
         self.editing.live = pose;
         if let Some(index) = self.active_actor() {
             self.stage.edit_actor(index, |actor| actor.hold(global));
@@ -218,6 +217,17 @@ impl Session {
         } else {
             self.edit_clip(|edits, clip| edits.set_goals(clip, name, goals));
         }
+    }
+
+    /// The names of what would be undone and redone in the active clip.
+    #[must_use]
+    pub fn step_names(&self) -> (Option<String>, Option<String>) {
+        let (undo, redo) = match (self.authored(), self.edits()) {
+            (Some(authored), _) => (authored.undo_name(), authored.redo_name()),
+            (None, Some(edits)) => (edits.undo_name(), edits.redo_name()),
+            (None, None) => (None, None),
+        };
+        (undo.map(str::to_owned), redo.map(str::to_owned))
     }
 
     /// Undoes the last step of the active clip.

@@ -71,7 +71,8 @@ impl Session {
     pub fn effector(&self) -> Option<JointId> {
         let clip = self.active_clip()?;
         let joint = self.selected()?;
-        (self.handles() == Handles::Targets && joint.index() < clip.skeleton().joint_count()).then_some(joint)
+        (self.handles() == Handles::Targets && joint.index() < clip.skeleton().joint_count())
+            .then_some(joint)
     }
 
     /// The joints from the chain's start to the effector; empty where the whole figure moves.

@@ -22,8 +22,8 @@ use crate::state::clip::{Clip, index_to_f64};
 use crate::state::display::{Display, Look, PoseShown};
 use crate::state::transport::Transport;
 
-pub use authoring::{AnimateSettings, Handles, KeyWhat};
 use authoring::Authoring;
+pub use authoring::{AnimateSettings, Handles, KeyWhat};
 pub use editing::Changed;
 use editing::Editing;
 pub use limbs::Hold;

@@ -87,7 +87,8 @@ fn is_moved(authored: &Authored, joint: JointId, pose: &LocalPose) -> bool {
     let skeleton = authored.skeleton();
     let is_root = skeleton.parent(joint).is_none();
     let there = pose.translations[joint.index()];
-    let away = there.distance(skeleton.rest_translation(joint)) > SAME * skeleton.height().max(SAME);
+    let away =
+        there.distance(skeleton.rest_translation(joint)) > SAME * skeleton.height().max(SAME);
     let layered = !authored.scene().motions.is_empty();
     is_root || authored.animation().translation(joint).is_some() || (away && !layered)
 }
