@@ -4,9 +4,9 @@ use egui::{Align, Layout, Rect, RichText, ScrollArea, Sense, Ui, pos2, vec2};
 use posekit::rotation::EulerOrder;
 
 use super::{GraphPanel, plane};
+use crate::command::KeysCommand;
 use crate::icons::{Icon, icon_button, sized_icon};
 use crate::panels::row;
-use crate::panels::timeline::axis::TimeAxis;
 use crate::state::animate::graph::ChannelId;
 use crate::state::animate::{Lane, Owner};
 use crate::state::session::Session;
@@ -25,15 +25,9 @@ const ORDERS: [EulerOrder; 6] = [
     EulerOrder::ZYX,
 ];
 
-/// Shows the list. `plot_width` is that of the plot beside it.
-pub(super) fn show(
-    ui: &mut Ui,
-    session: &mut Session,
-    panel: &mut GraphPanel,
-    axis: &mut TimeAxis,
-    plot_width: f32,
-) {
-    head(ui, panel, axis, plot_width);
+/// Shows the list.
+pub(super) fn show(ui: &mut Ui, session: &mut Session, panel: &mut GraphPanel) {
+    head(ui, panel);
     let Some(authored) = session.authored() else {
         return;
     };
@@ -64,7 +58,7 @@ pub(super) fn show(
 }
 
 /// The order of angles, and what takes curves into view.
-fn head(ui: &mut Ui, panel: &mut GraphPanel, axis: &mut TimeAxis, plot_width: f32) {
+fn head(ui: &mut Ui, panel: &mut GraphPanel) {
     ui.horizontal(|ui| {
         ui.set_min_height(24.0);
         let order = panel.graph.order();
@@ -85,7 +79,7 @@ fn head(ui: &mut Ui, panel: &mut GraphPanel, axis: &mut TimeAxis, plot_width: f3
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let says = "View all (Home); what is selected: the full stop";
             if icon_button(ui, Icon::Frame, says).clicked() {
-                panel.view_all(axis, plot_width);
+                panel.run(KeysCommand::ViewAll);
             }
         });
     });

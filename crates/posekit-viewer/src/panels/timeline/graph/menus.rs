@@ -4,7 +4,7 @@ use egui::{Popup, PopupKind, Pos2, Response, Ui};
 use posekit::keyframe::{Extrapolation, Interpolation};
 
 use super::GraphPanel;
-use crate::state::animate::channel::TangentKind;
+use crate::state::animate::channel::{Side, TangentKind};
 use crate::state::session::Session;
 use crate::theme::Palette;
 
@@ -24,8 +24,8 @@ pub(super) struct Menu {
 }
 
 impl Menu {
-    pub(super) fn at(kind: MenuKind, at: Option<Pos2>) -> Option<Self> {
-        at.map(|at| Self { kind, at })
+    pub(super) fn at(kind: MenuKind, at: Pos2) -> Self {
+        Self { kind, at }
     }
 }
 
@@ -58,8 +58,11 @@ pub(super) fn says(kind: TangentKind) -> &'static str {
 
 /// Shows the menu that is open, and opens that of the right button.
 pub(super) fn show(ui: &Ui, response: &Response, session: &mut Session, panel: &mut GraphPanel) {
-    if response.secondary_clicked() && !panel.press_is_spent {
-        panel.menu = Menu::at(MenuKind::All, response.interact_pointer_pos());
+    if response.secondary_clicked()
+        && !panel.press_is_spent
+        && let Some(at) = response.interact_pointer_pos()
+    {
+        panel.menu = Some(Menu::at(MenuKind::All, at));
     }
     let Some(menu) = panel.menu else {
         return;
@@ -120,10 +123,10 @@ fn all(ui: &mut Ui, session: &mut Session, panel: &mut GraphPanel) {
     ui.menu_button("Goes on  (T)", |ui| interpolations(ui, session, panel));
     ui.menu_button("Tangents  (V)", |ui| tangents(ui, session, panel));
     ui.menu_button("Before the first key", |ui| {
-        beyond(ui, session, panel, crate::state::animate::channel::Side::Incoming);
+        beyond(ui, session, panel, Side::Incoming);
     });
     ui.menu_button("After the last key", |ui| {
-        beyond(ui, session, panel, crate::state::animate::channel::Side::Outgoing);
+        beyond(ui, session, panel, Side::Outgoing);
     });
     ui.separator();
     if ui.button("Delete  (X)").clicked() {
@@ -135,7 +138,7 @@ fn beyond(
     ui: &mut Ui,
     session: &mut Session,
     panel: &mut GraphPanel,
-    side: crate::state::animate::channel::Side,
+    side: Side,
 ) {
     for (way, name) in BEYOND {
         if ui.button(name).clicked() {

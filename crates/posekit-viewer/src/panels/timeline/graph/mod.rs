@@ -14,13 +14,13 @@ use std::sync::Arc;
 use egui::{Rect, Sense, Ui, UiBuilder, pos2, vec2};
 
 use crate::panels::row;
-use crate::panels::timeline::axis::TimeAxis;
+use crate::command::KeysCommand;
+use crate::panels::timeline::axis::{self, Axis, TimeView};
 use crate::state::animate::Lane;
 use crate::state::animate::channel::{Channels, Sampled};
 use crate::state::animate::graph::{ChannelId, DotId, Graph};
 use crate::state::session::Session;
 use crate::theme::GAP;
-pub use keys::GraphKey;
 use menus::Menu;
 use plane::{Plane, ValueView};
 use pointer::Pointing;
@@ -35,7 +35,7 @@ const FIELDS_WIDTH: f32 = 172.0;
 const FIELDS_LEAST: f32 = 760.0;
 
 /// Points from one place of a drawn curve to the next.
-const CURVE_STEP: f64 = 1.5;
+const CURVE_STEP: f32 = 1.5;
 
 /// Room left of the plot for the labels of values.
 const LABELS_WIDTH: f32 = 46.0;
@@ -49,9 +49,9 @@ pub struct GraphPanel {
     fitted: BTreeSet<ChannelId>,
     lines: BTreeMap<Lane, Line>,
     pointing: Option<Pointing>,
-    pressed: Vec<GraphKey>,
+    asked: Vec<KeysCommand>,
+    held_keys: Vec<keys::HeldKey>,
     menu: Option<Menu>,
-    has_pointer: bool,
     /// The button that is down has let go of something: it asks for nothing more.
     press_is_spent: bool,
     /// Of the number that is dragged.
@@ -97,14 +97,14 @@ impl GraphPanel {
 
     /// A lane's curves over a span, made anew only when either has changed.
     fn sampled(&mut self, lane: Lane, channels: &Arc<Channels>, plane: &Plane) -> Arc<Sampled> {
-        let span_secs = plane.span_secs();
+        let span_secs = plane.axis.seen_secs();
         if let Some(line) = self.lines.get(&lane)
             && Arc::ptr_eq(&line.channels, channels)
             && line.span_secs == span_secs
         {
             return Arc::clone(&line.sampled);
         }
-        let step = CURVE_STEP * plane.secs_per_point;
+        let step = plane.axis.secs_of(CURVE_STEP);
         let sampled = Arc::new(channels.sampled(span_secs, step));
         let line = Line {
             channels: Arc::clone(channels),
@@ -144,35 +144,31 @@ impl GraphPanel {
     }
 
     /// Takes what is selected into view, or everything where nothing is.
-    fn view(&mut self, dots: BTreeSet<DotId>, axis: &mut TimeAxis, width: f32) {
+    fn view(&mut self, dots: BTreeSet<DotId>, time: &mut TimeView, axis: &Axis) {
         let Some([times, _]) = self.graph.extent(dots.iter().copied()) else {
             return;
         };
-        axis.fit(times, width);
+        time.fit(times, axis);
         self.fit_values(dots.into_iter().collect());
     }
 
-    fn view_all(&mut self, axis: &mut TimeAxis, width: f32) {
+    fn view_all(&mut self, time: &mut TimeView, axis: &Axis) {
         let dots: BTreeSet<DotId> = self.graph.dots().collect();
-        self.view(dots, axis, width);
+        self.view(dots, time, axis);
     }
 
-    fn view_selected(&mut self, axis: &mut TimeAxis, width: f32) {
+    fn view_selected(&mut self, time: &mut TimeView, axis: &Axis) {
         let selected = self.graph.selected();
         if selected.is_empty() {
-            self.view_all(axis, width);
+            self.view_all(time, axis);
         } else {
-            self.view(selected, axis, width);
+            self.view(selected, time, axis);
         }
     }
 }
 
 /// Shows the graph editor of the active clip's scene in all of the room that there is.
-pub fn show(ui: &mut Ui, session: &mut Session, panel: &mut GraphPanel, axis: &mut TimeAxis) {
-    if session.authored().is_none() {
-        row::empty_note(ui, "Make the clip a scene with keys to see its curves.");
-        return;
-    }
+pub fn show(ui: &mut Ui, session: &mut Session, panel: &mut GraphPanel, time: &mut TimeView) {
     panel.graph.update(session);
     panel.fit_new();
     let whole = ui.available_rect_before_wrap();
@@ -188,12 +184,12 @@ pub fn show(ui: &mut Ui, session: &mut Session, panel: &mut GraphPanel, axis: &m
         pos2(list.right() + GAP + LABELS_WIDTH, whole.top()),
         pos2(right, whole.bottom()),
     );
-    in_rect(ui, list, |ui| list::show(ui, session, panel, axis, plot.width()));
+    in_rect(ui, list, |ui| list::show(ui, session, panel));
     if has_fields {
         let fields = Rect::from_min_max(pos2(right + 2.0 * GAP, whole.top()), whole.max);
         in_rect(ui, fields, |ui| fields::show(ui, session, panel));
     }
-    show_plot(ui, plot, session, panel, axis);
+    show_plot(ui, plot, session, panel, time);
 }
 
 fn in_rect(ui: &mut Ui, rect: Rect, contents: impl FnOnce(&mut Ui)) {
@@ -207,37 +203,41 @@ fn show_plot(
     whole: Rect,
     session: &mut Session,
     panel: &mut GraphPanel,
-    axis: &mut TimeAxis,
+    time: &mut TimeView,
 ) {
-    let ruler = Rect::from_min_size(whole.min, vec2(whole.width(), TimeAxis::RULER_HEIGHT));
-    let rect = Rect::from_min_max(ruler.left_bottom(), whole.max);
-    axis.ruler(ui, ruler, session);
+    let (ruler, rect) = whole.split_top_bottom_at_y(whole.top() + axis::RULER_HEIGHT);
+    let plane_now = |session: &Session, panel: &GraphPanel, time: &TimeView| {
+        Some(Plane {
+            rect,
+            axis: time.axis(rect, session.authored()?),
+            values: panel.values.unwrap_or(ValueView::of([-1.0, 1.0])),
+        })
+    };
+    let Some(plane) = plane_now(session, panel, time) else {
+        return;
+    };
+    axis::ruler(ui, time, &plane.axis, ruler, session);
     let response = ui.interact(rect, ui.id().with("graph"), Sense::click_and_drag());
     response.widget_info(|| {
         let mut info = egui::WidgetInfo::new(egui::Role::GraphicsDocument);
         info.label = Some("Curves of keys".to_owned());
         info
     });
-    panel.has_pointer = response.contains_pointer();
-    let plane_now = |panel: &GraphPanel, axis: &TimeAxis| Plane {
-        rect,
-        start_secs: axis.start_secs,
-        secs_per_point: axis.secs_per_point,
-        values: panel.values.unwrap_or(ValueView::of([-1.0, 1.0])),
-    };
-    let plane = plane_now(panel, axis);
-    panel.plane = Some(plane);
     if panel.graph.curves().is_empty() {
+        panel.plane = Some(plane);
+        panel.asked.clear();
         paint::empty(ui, rect);
-        panel.pressed.clear();
         return;
     }
-    pointer::move_view(ui, &response, panel, axis, &plane);
-    for key in std::mem::take(&mut panel.pressed) {
-        keys::run(ui, key, session, panel, axis, &plane);
+    pointer::move_view(ui, &response, panel, time, &plane);
+    for command in std::mem::take(&mut panel.asked) {
+        keys::run(ui, command, session, panel, time, &plane);
     }
-    pointer::follow(ui, &response, session, panel, &plane_now(panel, axis));
-    let plane = plane_now(panel, axis);
+    let Some(plane) = plane_now(session, panel, time) else {
+        return;
+    };
+    panel.run_held_keys(session);
+    pointer::follow(ui, &response, session, panel, &plane);
     panel.plane = Some(plane);
     paint::show(ui, &response, session, panel, &plane);
     menus::show(ui, &response, session, panel);

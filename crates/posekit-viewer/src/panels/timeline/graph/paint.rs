@@ -8,10 +8,10 @@ use egui::{
 use super::GraphPanel;
 use super::plane::{Plane, number_text, round_step};
 use super::pointer::{Lock, Task, curve_at, dot_at, handle_at, handles};
-use crate::panels::timeline::axis::TimeAxis;
+use crate::panels::timeline::axis::paint_ground;
 use crate::state::animate::channel::{Channels, Sampled};
 use crate::state::animate::graph::{ChannelId, HoldKind};
-use crate::state::animate::{Authored, Lane};
+use crate::state::animate::Lane;
 use crate::state::session::Session;
 use crate::theme::{CURVES, Palette};
 
@@ -69,12 +69,11 @@ pub(super) fn show(
     panel: &mut GraphPanel,
     plane: &Plane,
 ) {
-    let Some(authored) = session.authored() else {
-        return;
-    };
     let palette = Palette::in_ui(ui);
     let canvas = ui.painter().with_clip_rect(plane.rect);
-    grid(ui, &canvas, authored, panel, plane, &palette);
+    canvas.rect_filled(plane.rect, 0.0, palette.panel);
+    paint_ground(ui, &plane.axis, session);
+    grid(ui, &canvas, panel, plane, &palette);
     let lanes: Vec<Lane> = panel.graph.curves().keys().copied().collect();
     let selected = panel.graph.selected();
     for lane in lanes {
@@ -94,38 +93,13 @@ pub(super) fn show(
         }
     }
     dots(&canvas, panel, plane, &palette);
-    let x = plane.x(session.scene_secs());
-    canvas.line_segment(
-        [pos2(x, plane.rect.top()), pos2(x, plane.rect.bottom())],
-        Stroke::new(1.5, palette.accent),
-    );
     boxes(ui, &canvas, panel, plane, &palette);
     readout(ui, response, &canvas, session, panel, plane);
 }
 
-fn grid(
-    ui: &Ui,
-    canvas: &Painter,
-    authored: &Authored,
-    panel: &GraphPanel,
-    plane: &Plane,
-    palette: &Palette,
-) {
+/// Lines of round values, with what they are.
+fn grid(ui: &Ui, canvas: &Painter, panel: &GraphPanel, plane: &Plane, palette: &Palette) {
     let rect = plane.rect;
-    canvas.rect_filled(rect, 4.0, palette.sunken);
-    let [start, end] = authored.scene().range_secs.map(|secs| plane.x(secs));
-    let shade = palette.text.gamma_multiply(0.05);
-    for (left, right) in [(rect.left(), start), (end, rect.right())] {
-        if right > left {
-            let outside = Rect::from_min_max(pos2(left, rect.top()), pos2(right, rect.bottom()));
-            canvas.rect_filled(outside, 0.0, shade);
-        }
-    }
-    let line = Stroke::new(1.0, palette.line);
-    for secs in TimeAxis::ticks(plane.start_secs, plane.secs_per_point, rect.width(), authored) {
-        let x = plane.x(secs);
-        canvas.line_segment([pos2(x, rect.top()), pos2(x, rect.bottom())], line);
-    }
     let ticks = plane.value_ticks();
     let step = match ticks.as_slice() {
         [first, second, ..] => second - first,
@@ -283,8 +257,7 @@ fn readout(
     }
     let fineness = round_step(plane.value_per_point());
     let secs = plane.secs(pointer.x);
-    let start = authored.scene().range_secs[0];
-    let frame = ((secs - start) / authored.frame_secs()).round();
+    let frame = plane.axis.frame(secs);
     let mut text = format!(
         "frame {frame}  \u{b7}  {} s  \u{b7}  {}{}",
         number_text(secs, 0.01),

@@ -2,6 +2,9 @@
 
 use egui::{Pos2, Rect, pos2};
 
+use crate::panels::timeline::axis::Axis;
+use crate::state::clip::{index_to_f64, nearest_index};
+
 /// Share of the height that is left free above and below what is taken into view.
 const MARGIN: f64 = 0.12;
 
@@ -48,8 +51,7 @@ fn least_span(low: f64, high: f64) -> f64 {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plane {
     pub(super) rect: Rect,
-    pub(super) start_secs: f64,
-    pub(super) secs_per_point: f64,
+    pub(super) axis: Axis,
     pub(super) values: ValueView,
 }
 
@@ -64,8 +66,7 @@ fn cut(place: f64, near: f32, far: f32) -> f32 {
 impl Plane {
     /// A time's place from left to right.
     pub(super) fn x(&self, secs: f64) -> f32 {
-        let x = f64::from(self.rect.left()) + (secs - self.start_secs) / self.secs_per_point;
-        cut(x, self.rect.left(), self.rect.right())
+        cut(self.axis.x(secs).into(), self.rect.left(), self.rect.right())
     }
 
     /// A value's place from top to bottom.
@@ -80,7 +81,7 @@ impl Plane {
     }
 
     pub(super) fn secs(&self, x: f32) -> f64 {
-        self.start_secs + f64::from(x - self.rect.left()) * self.secs_per_point
+        self.axis.secs_at(x)
     }
 
     pub(super) fn value(&self, y: f32) -> f64 {
@@ -91,19 +92,14 @@ impl Plane {
         self.values.span / f64::from(self.rect.height().max(1.0))
     }
 
-    /// The times from the left to the right edge.
-    pub(super) fn span_secs(&self) -> [f64; 2] {
-        [self.rect.left(), self.rect.right()].map(|x| self.secs(x))
-    }
-
     /// The values to be labelled.
     pub(super) fn value_ticks(&self) -> Vec<f64> {
         let step = round_step(LABEL_ROOM * self.value_per_point());
         let [low, high] = [self.rect.bottom(), self.rect.top()].map(|y| self.value(y));
         let first = (low / step).ceil();
-        let count = crate::state::clip::nearest_index(((high / step).floor() - first).max(0.0), 500);
+        let count = nearest_index(((high / step).floor() - first).max(0.0), 500);
         (0..=count)
-            .map(|index| (first + crate::state::clip::index_to_f64(index)) * step)
+            .map(|index| (first + index_to_f64(index)) * step)
             .filter(|value| *value <= high)
             .collect()
     }
@@ -123,7 +119,7 @@ pub(super) fn round_step(wanted: f64) -> f64 {
 
 /// A number as short as it can be said at this fineness.
 pub(super) fn number_text(value: f64, step: f64) -> String {
-    let places = crate::state::clip::nearest_index((-libm::log10(step)).ceil().max(0.0), 6);
+    let places = nearest_index((-libm::log10(step)).ceil().max(0.0), 6);
     let text = format!("{value:.places$}");
     match text.strip_prefix('-') {
         Some(digits) if digits.chars().all(|c| matches!(c, '0' | '.')) => digits.to_owned(),
@@ -134,14 +130,21 @@ pub(super) fn number_text(value: f64, step: f64) -> String {
 #[cfg(test)]
 mod tests {
     use egui::vec2;
+    use posekit_formats::scene::{Scene, SkeletonSource};
 
     use super::*;
+    use crate::panels::timeline::axis::TimeView;
+    use crate::state::animate::Authored;
 
     fn plane(values: ValueView) -> Plane {
+        let scene = Scene::new(SkeletonSource::File("sample:walk".to_owned()));
+        let motion = posekit::sample::by_name("walk").expect("a sample");
+        let files = [("sample:walk".to_owned(), motion.into())].into();
+        let authored = Authored::new(scene, files).expect("it fits");
+        let rect = Rect::from_min_size(pos2(100.0, 50.0), vec2(500.0, 200.0));
         Plane {
-            rect: Rect::from_min_size(pos2(100.0, 50.0), vec2(500.0, 200.0)),
-            start_secs: -0.5,
-            secs_per_point: 0.01,
+            rect,
+            axis: TimeView::default().axis(rect, &authored),
             values,
         }
     }
@@ -149,7 +152,7 @@ mod tests {
     #[test]
     fn places_and_numbers_agree() {
         let plane = plane(ValueView::of([-30.0, 60.0]));
-        for secs in [-0.5, 0.0, 1.25, 4.5] {
+        for secs in [0.0, 0.3, 1.0] {
             assert!((plane.secs(plane.x(secs)) - secs).abs() < 1e-5);
         }
         for value in [-30.0, 0.0, 12.5, 60.0] {

@@ -6,7 +6,7 @@ use egui::{Modifiers, PointerButton, Pos2, Rect, Response, Ui};
 
 use super::GraphPanel;
 use super::plane::{Plane, ValueView};
-use crate::panels::timeline::axis::TimeAxis;
+use crate::panels::timeline::axis::TimeView;
 use crate::state::animate::channel::Side;
 use crate::state::animate::graph::{ChannelId, DotId, Graph, HandleId, HoldKind};
 use crate::state::session::Session;
@@ -108,7 +108,7 @@ pub(super) fn move_view(
     ui: &Ui,
     response: &Response,
     panel: &mut GraphPanel,
-    axis: &mut TimeAxis,
+    view: &mut TimeView,
     plane: &Plane,
 ) {
     let values = panel.values.get_or_insert(ValueView::of([-1.0, 1.0]));
@@ -116,7 +116,7 @@ pub(super) fn move_view(
         || response.dragged_by(PointerButton::Secondary);
     if drags {
         let by = response.drag_delta();
-        axis.start_secs -= f64::from(by.x) * axis.secs_per_point;
+        view.pan(&plane.axis, -by.x);
         values.middle += f64::from(by.y) * plane.value_per_point();
         ui.ctx().set_cursor_icon(egui::CursorIcon::Grabbing);
     }
@@ -136,11 +136,11 @@ pub(super) fn move_view(
         values.zoom(plane.value(pointer.y), f64::from(factor));
     }
     if !modifiers.shift && scroll.y != 0.0 {
-        let factor = libm::exp2f(-scroll.y / POINTS_PER_DOUBLING);
-        axis.zoom(plane.secs(pointer.x), f64::from(factor));
+        let factor = libm::exp2f(scroll.y / POINTS_PER_DOUBLING);
+        view.zoom(&plane.axis, pointer.x, factor);
     }
     if !modifiers.shift && scroll.x != 0.0 {
-        axis.start_secs -= f64::from(scroll.x) * axis.secs_per_point;
+        view.pan(&plane.axis, -scroll.x);
     }
 }
 
@@ -289,10 +289,8 @@ fn apply(
     match kind {
         HoldKind::Move => {
             let mut by_secs = plane.secs(pointer.x) - plane.secs(pointing.from.x);
-            if !modifiers.command
-                && let Some(authored) = session.authored()
-            {
-                by_secs = authored.snapped(reference_secs + by_secs) - reference_secs;
+            if !modifiers.command {
+                by_secs = plane.axis.snapped(reference_secs + by_secs) - reference_secs;
             }
             let by_value = plane.value(pointer.y) - plane.value(pointing.from.y);
             let by = match lock {
@@ -381,10 +379,7 @@ fn insert(session: &mut Session, panel: &mut GraphPanel, plane: &Plane, pointer:
     if dot_at(&panel.graph, plane, pointer).is_some() {
         return;
     }
-    let Some(authored) = session.authored() else {
-        return;
-    };
-    let secs = authored.snapped(plane.secs(pointer.x));
+    let secs = plane.axis.snapped(plane.secs(pointer.x));
     if let Some(channel) = curve_at(&panel.graph, plane, pointer) {
         panel.graph.insert_key(session, channel, secs);
     }

@@ -5,11 +5,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use posekit::keyframe::edit::{EditError, SAME_TIME_SECS, replace_keys};
-use posekit::keyframe::{Interpolation, Keyframe, Tangents, Track};
+use posekit::keyframe::edit::{EditError, SAME_TIME_SECS, key_on_curve, replace_keys};
+use posekit::keyframe::{Extrapolation, Interpolation, Keyframe, Tangents, Track};
 
 use super::parts::{InParts, Parts};
-use super::{Channels, Side, TrackValue, with_track};
+use super::{Channels, Side, with_track};
+use crate::state::animate::TrackValue;
 
 /// A key of one channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -220,6 +221,32 @@ pub fn set_interpolation(
     with_track!(track, track => change_keys(track, keys, |_, key| key.interpolation = interpolation))
 }
 
+/// Puts a key onto the curve, which moves as little as can be.
+///
+/// # Errors
+/// [`EditError::Track`] when the time is not finite.
+pub fn insert_on_curve(track: &TrackValue, time_secs: f64) -> Result<Edited, EditError> {
+    with_track!(track, track => {
+        let with_key = replace_keys(track, &[], vec![key_on_curve(track, time_secs)])?;
+        Ok(found_again(track, with_key, &BTreeMap::new()))
+    })
+}
+
+/// Chooses how a track goes on before its first key, or after its last one.
+///
+/// # Errors
+/// None that a valid track can give.
+pub fn set_beyond(track: &TrackValue, side: Side, way: Extrapolation) -> Result<Edited, EditError> {
+    with_track!(track, track => {
+        let ends = match side {
+            Side::Incoming => [way, track.after()],
+            Side::Outgoing => [track.before(), way],
+        };
+        let edited = Track::with_ends(track.keys().to_vec(), ends[0], ends[1])?;
+        Ok(found_again(track, edited, &BTreeMap::new()))
+    })
+}
+
 /// The channels of each key's dots.
 fn by_key(dots: &[Dot]) -> BTreeMap<usize, BTreeSet<usize>> {
     let mut keys: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
@@ -320,11 +347,26 @@ where
 {
     let selected: Vec<usize> = changed.keys().copied().collect();
     let edited = replace_keys(track, &selected, changed.values().copied().collect())?;
+    Ok(found_again(track, edited, &changed))
+}
+
+/// An edited track, and where the keys of the old one have gone.
+fn found_again<V: InParts>(
+    track: &Track<V>,
+    edited: Track<V>,
+    changed: &BTreeMap<usize, Keyframe<V>>,
+) -> Edited
+where
+    TrackValue: From<Track<V>>,
+{
     let replaced = |time: f64| {
         let same = |key: &Keyframe<V>| (key.time_secs - time).abs() <= SAME_TIME_SECS;
         changed.values().any(same)
     };
-    let place_of = |time: f64| edited.times_secs().binary_search_by(|t| t.total_cmp(&time)).ok();
+    let place_of = |time: f64| {
+        let times = edited.times_secs();
+        times.binary_search_by(|at| at.total_cmp(&time)).ok()
+    };
     let mut keys = BTreeMap::new();
     for (index, &time) in track.times_secs().iter().enumerate() {
         let now = match changed.get(&index) {
@@ -334,8 +376,8 @@ where
         };
         keys.extend(now.map(|now| (index, now)));
     }
-    Ok(Edited {
+    Edited {
         track: edited.into(),
         keys,
-    })
+    }
 }

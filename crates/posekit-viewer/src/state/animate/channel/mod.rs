@@ -22,9 +22,10 @@ use posekit::keyframe::{Interpolation, Track};
 use posekit::rotation::{Axis, EulerOrder};
 
 pub use edit::{
-    Dot, Edited, Scaling, TangentKind, drag_handle, move_dots, scale_dots, set_interpolation,
-    set_tangents,
+    Dot, Edited, Scaling, TangentKind, drag_handle, insert_on_curve, move_dots, scale_dots,
+    set_beyond, set_interpolation, set_tangents,
 };
+use super::{LaneTrack, TrackValue};
 use parts::{InParts, Parts};
 pub use sampled::Sampled;
 use walk::Walk;
@@ -61,17 +62,6 @@ impl Side {
     }
 }
 
-/// A track of any kind of value.
-#[derive(Clone, Debug, PartialEq)]
-pub enum TrackValue {
-    /// Of a number.
-    Number(Track<f64>),
-    /// Of a vector.
-    Vector(Track<DVec3>),
-    /// Of an orientation.
-    Orientation(Track<DQuat>),
-}
-
 impl From<Track<f64>> for TrackValue {
     fn from(track: Track<f64>) -> Self {
         Self::Number(track)
@@ -94,9 +84,9 @@ impl From<Track<DQuat>> for TrackValue {
 macro_rules! with_track {
     ($value:expr, $track:ident => $body:expr) => {
         match $value {
-            $crate::state::animate::channel::TrackValue::Number($track) => $body,
-            $crate::state::animate::channel::TrackValue::Vector($track) => $body,
-            $crate::state::animate::channel::TrackValue::Orientation($track) => $body,
+            $crate::state::animate::TrackValue::Number($track) => $body,
+            $crate::state::animate::TrackValue::Vector($track) => $body,
+            $crate::state::animate::TrackValue::Orientation($track) => $body,
         }
     };
 }
@@ -122,6 +112,12 @@ impl Channels {
             TrackValue::Number(_) | TrackValue::Vector(_) => None,
         };
         Self { track, order, walk }
+    }
+
+    /// Whether these are the channels of a track in an order of angles.
+    #[must_use]
+    pub fn is_of(&self, track: LaneTrack<'_>, order: EulerOrder) -> bool {
+        self.order == euler::complete(order) && self.track.as_track() == track
     }
 
     /// The track.

@@ -10,14 +10,14 @@ mod hold;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use posekit::keyframe::Interpolation;
-use posekit::keyframe::edit::EditError;
+use posekit::keyframe::edit::{EditError, delete_keys};
+use posekit::keyframe::{Extrapolation, Interpolation};
 use posekit::rotation::EulerOrder;
 use posekit_formats::scene::JointValues;
 
 use super::channel::{
-    self, Channels, Dot, Edited, Side, TangentKind, insert_on_curve, set_interpolation,
-    set_tangents,
+    self, Channels, Dot, Edited, Side, TangentKind, insert_on_curve, set_beyond,
+    set_interpolation, set_tangents,
 };
 use super::{Authored, KeyId, Lane, TrackValue};
 use crate::state::session::Session;
@@ -306,6 +306,38 @@ impl Graph {
         self.edit_keys(session, "Interpolation", |track, keys| {
             set_interpolation(track, keys, interpolation)
         });
+    }
+
+    /// Chooses how the lanes of the selected keys go on before their first or after their last key.
+    pub fn set_beyond(&mut self, session: &mut Session, side: Side, way: Extrapolation) {
+        self.edit_keys(session, "Extrapolation", |track, _| set_beyond(track, side, way));
+    }
+
+    /// Takes the selected keys away. A lane that has none left is no longer keyed.
+    pub fn delete(&mut self, session: &mut Session) {
+        let keys = self.selected_keys();
+        let changes: Vec<(Lane, Option<TrackValue>)> = keys
+            .into_iter()
+            .filter_map(|(lane, keys)| {
+                let keys: Vec<usize> = keys.into_iter().collect();
+                let left = match self.curves.get(&lane)?.track() {
+                    TrackValue::Number(track) => delete_keys(track, &keys).map(TrackValue::from),
+                    TrackValue::Vector(track) => delete_keys(track, &keys).map(TrackValue::from),
+                    TrackValue::Orientation(track) => {
+                        delete_keys(track, &keys).map(TrackValue::from)
+                    }
+                };
+                Some((lane, left))
+            })
+            .collect();
+        if changes.is_empty() {
+            return;
+        }
+        self.dots.clear();
+        session.author(|authored| {
+            authored.set_tracks("Delete keys", None, changes, BTreeSet::new());
+        });
+        self.update(session);
     }
 
     /// Edits the selected keys, lane by lane, as one step.
