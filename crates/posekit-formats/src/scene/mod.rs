@@ -22,7 +22,7 @@
 
 mod document;
 mod files;
-mod read;
+pub(crate) mod read;
 mod shot;
 mod write;
 
@@ -33,6 +33,7 @@ pub use document::{
 pub use files::{AUTHORED_WALK_NAME, MotionFileError, SAMPLE_PREFIX, motion_of};
 pub use read::{SceneProblem, SceneProblemKind, SceneReadError, read};
 pub use shot::{Shot, ShotError};
+pub(crate) use write::quoted;
 pub use write::write;
 
 /// What the file says of itself in `format`.

@@ -199,6 +199,17 @@ impl Viewer {
         &mut self.session
     }
 
+    /// The timeline, to look at.
+    #[must_use]
+    pub fn timeline(&self) -> &Timeline {
+        &self.timeline
+    }
+
+    /// The timeline, to change.
+    pub fn timeline_mut(&mut self) -> &mut Timeline {
+        &mut self.timeline
+    }
+
     /// The arm lab, to look at.
     #[must_use]
     pub fn lab(&self) -> &ArmLab {

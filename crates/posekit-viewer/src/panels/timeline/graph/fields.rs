@@ -129,11 +129,7 @@ fn number(ui: &mut Ui, value: &mut f64, unit: &str, speed: f64) -> Response {
 }
 
 /// All that happens while a number is dragged is one gesture; one that is typed is a step of its own.
-fn gesture(
-    session: &mut Session,
-    panel: &mut GraphPanel,
-    response: &Response,
-) -> Option<Gesture> {
+fn gesture(session: &mut Session, panel: &mut GraphPanel, response: &Response) -> Option<Gesture> {
     if !response.dragged() {
         panel.field_gesture = None;
         return None;

@@ -75,7 +75,9 @@ fn head(ui: &mut Ui, panel: &mut GraphPanel) {
                 panel.graph.set_order(chosen);
             })
             .response
-            .on_hover_text("The order of the axes of angles. It changes what is drawn, not the keys.");
+            .on_hover_text(
+                "The order of the axes of angles. It changes what is drawn, not the keys.",
+            );
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let says = "View all (Home); what is selected: the full stop";
             if icon_button(ui, Icon::Frame, says).clicked() {
@@ -104,9 +106,16 @@ fn lane_row(
     let name = lane.label(authored.scene(), authored.skeleton());
     let palette = Palette::in_ui(ui);
     let (rect, response) = row::row(ui, LIST_ROW, false, &name);
-    let color = if is_shown { palette.text } else { palette.quiet };
+    let color = if is_shown {
+        palette.text
+    } else {
+        palette.quiet
+    };
     let seen = !panel.graph.seen_channels(lane).is_empty();
-    let eye = Rect::from_min_size(rect.right_top() - vec2(LIST_ROW, 0.0), vec2(LIST_ROW, LIST_ROW));
+    let eye = Rect::from_min_size(
+        rect.right_top() - vec2(LIST_ROW, 0.0),
+        vec2(LIST_ROW, LIST_ROW),
+    );
     let place = Rect::from_min_max(rect.min + vec2(GAP, 0.0), pos2(eye.left(), rect.bottom()));
     row::text_in(ui, place, RichText::new(&name).size(12.5), color);
     let (icon, says) = if seen {
@@ -155,9 +164,7 @@ fn channels(ui: &mut Ui, session: &Session, panel: &mut GraphPanel, lane: Lane) 
         let palette = Palette::in_ui(ui);
         let (rect, response) =
             ui.allocate_exact_size(vec2(ui.available_width(), LIST_ROW - 2.0), Sense::click());
-        response.widget_info(|| {
-            egui::WidgetInfo::selected(egui::Role::CheckBox, true, seen, name)
-        });
+        response.widget_info(|| egui::WidgetInfo::selected(egui::Role::CheckBox, true, seen, name));
         if response.hovered() {
             ui.painter().rect_filled(rect, 5.0, palette.hover);
         }
@@ -185,7 +192,11 @@ fn channels(ui: &mut Ui, session: &Session, panel: &mut GraphPanel, lane: Lane) 
             palette.quiet,
         );
         if response
-            .on_hover_text(if seen { "Hide this curve" } else { "Show this curve" })
+            .on_hover_text(if seen {
+                "Hide this curve"
+            } else {
+                "Show this curve"
+            })
             .clicked()
         {
             panel.graph.set_seen(id, !seen);

@@ -32,9 +32,17 @@ impl Menu {
 /// The ways on, in the order in which they are offered.
 pub(super) const INTERPOLATIONS: [(Interpolation, &str, &str); 4] = [
     (Interpolation::Step, "Step", "Keeps its value, then jumps"),
-    (Interpolation::Linear, "Linear", "Straight; orientations by slerp"),
+    (
+        Interpolation::Linear,
+        "Linear",
+        "Straight; orientations by slerp",
+    ),
     (Interpolation::Cubic, "Cubic", "A curve with tangents"),
-    (Interpolation::Squad, "Squad", "A smooth curve through the keys, without tangents"),
+    (
+        Interpolation::Squad,
+        "Squad",
+        "A smooth curve through the keys, without tangents",
+    ),
 ];
 
 /// The ways beyond the ends, in the order in which they are offered.
@@ -134,12 +142,7 @@ fn all(ui: &mut Ui, session: &mut Session, panel: &mut GraphPanel) {
     }
 }
 
-fn beyond(
-    ui: &mut Ui,
-    session: &mut Session,
-    panel: &mut GraphPanel,
-    side: Side,
-) {
+fn beyond(ui: &mut Ui, session: &mut Session, panel: &mut GraphPanel, side: Side) {
     for (way, name) in BEYOND {
         if ui.button(name).clicked() {
             panel.graph.set_beyond(session, side, way);

@@ -11,9 +11,8 @@ mod pointer;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use egui::{Rect, Sense, Ui, UiBuilder, pos2, vec2};
+use egui::{Rect, Sense, Ui, UiBuilder, pos2};
 
-use crate::panels::row;
 use crate::command::KeysCommand;
 use crate::panels::timeline::axis::{self, Axis, TimeView};
 use crate::state::animate::Lane;
@@ -217,7 +216,7 @@ fn show_plot(
         return;
     };
     axis::ruler(ui, time, &plane.axis, ruler, session);
-    let response = ui.interact(rect, ui.id().with("graph"), Sense::click_and_drag());
+    let response = ui.interact(rect, ui.scope_id().with("graph"), Sense::click_and_drag());
     response.widget_info(|| {
         let mut info = egui::WidgetInfo::new(egui::Role::GraphicsDocument);
         info.label = Some("Curves of keys".to_owned());

@@ -9,9 +9,9 @@ use super::GraphPanel;
 use super::plane::{Plane, number_text, round_step};
 use super::pointer::{Lock, Task, curve_at, dot_at, handle_at, handles};
 use crate::panels::timeline::axis::paint_ground;
+use crate::state::animate::Lane;
 use crate::state::animate::channel::{Channels, Sampled};
 use crate::state::animate::graph::{ChannelId, HoldKind};
-use crate::state::animate::Lane;
 use crate::state::session::Session;
 use crate::theme::{CURVES, Palette};
 
@@ -214,11 +214,17 @@ fn boxes(ui: &Ui, canvas: &Painter, panel: &GraphPanel, plane: &Plane, palette: 
     match pointing.lock {
         Some(Lock::Time) => {
             let y = pointing.from.y;
-            canvas.line_segment([pos2(plane.rect.left(), y), pos2(plane.rect.right(), y)], line);
+            canvas.line_segment(
+                [pos2(plane.rect.left(), y), pos2(plane.rect.right(), y)],
+                line,
+            );
         }
         Some(Lock::Value) => {
             let x = pointing.from.x;
-            canvas.line_segment([pos2(x, plane.rect.top()), pos2(x, plane.rect.bottom())], line);
+            canvas.line_segment(
+                [pos2(x, plane.rect.top()), pos2(x, plane.rect.bottom())],
+                line,
+            );
         }
         None => {}
     }

@@ -66,13 +66,17 @@ fn cut(place: f64, near: f32, far: f32) -> f32 {
 impl Plane {
     /// A time's place from left to right.
     pub(super) fn x(&self, secs: f64) -> f32 {
-        cut(self.axis.x(secs).into(), self.rect.left(), self.rect.right())
+        cut(
+            self.axis.x(secs).into(),
+            self.rect.left(),
+            self.rect.right(),
+        )
     }
 
     /// A value's place from top to bottom.
     pub(super) fn y(&self, value: f64) -> f32 {
-        let y = f64::from(self.rect.center().y)
-            - (value - self.values.middle) / self.value_per_point();
+        let y =
+            f64::from(self.rect.center().y) - (value - self.values.middle) / self.value_per_point();
         cut(y, self.rect.top(), self.rect.bottom())
     }
 
@@ -174,7 +178,11 @@ mod tests {
 
     #[test]
     fn labels_are_round_and_not_crowded() {
-        for (range, first) in [([0.0, 1.0], 0.2), ([-180.0, 180.0], 100.0), ([5.0, 5.0], 0.1)] {
+        for (range, first) in [
+            ([0.0, 1.0], 0.2),
+            ([-180.0, 180.0], 100.0),
+            ([5.0, 5.0], 0.1),
+        ] {
             let plane = plane(ValueView::of(range));
             let ticks = plane.value_ticks();
             assert!(ticks.len() >= 2, "{range:?}");

@@ -56,7 +56,10 @@ pub(super) struct Pointing {
 impl Pointing {
     /// What is held goes along with the pointer until a button is pressed.
     pub(super) fn modal(graph: &Graph, plane: &Plane, from: Pos2) -> Self {
-        let times = graph.selected().into_iter().filter_map(|dot| graph.place(dot));
+        let times = graph
+            .selected()
+            .into_iter()
+            .filter_map(|dot| graph.place(dot));
         let first = times.map(|place| place[0]).fold(f64::INFINITY, f64::min);
         let reference_secs = if first.is_finite() {
             first
@@ -112,8 +115,8 @@ pub(super) fn move_view(
     plane: &Plane,
 ) {
     let values = panel.values.get_or_insert(ValueView::of([-1.0, 1.0]));
-    let drags = response.dragged_by(PointerButton::Middle)
-        || response.dragged_by(PointerButton::Secondary);
+    let drags =
+        response.dragged_by(PointerButton::Middle) || response.dragged_by(PointerButton::Secondary);
     if drags {
         let by = response.drag_delta();
         view.pan(&plane.axis, -by.x);
@@ -243,7 +246,10 @@ fn begin(
         lock: None,
     };
     if let Some(handle) = handle_at(&panel.graph, plane, origin) {
-        let value = panel.graph.handle_place(handle).map_or(0.0, |place| place[1]);
+        let value = panel
+            .graph
+            .handle_place(handle)
+            .map_or(0.0, |place| place[1]);
         if panel.graph.take_handle(session, handle) {
             return held(0.0, value - plane.value(origin.y));
         }
@@ -285,7 +291,9 @@ fn apply(
     let Some(kind) = panel.graph.held().map(|held| held.kind()) else {
         return;
     };
-    let lock = pointing.lock.or_else(|| lock_by_shift(pointing.from, pointer, modifiers));
+    let lock = pointing
+        .lock
+        .or_else(|| lock_by_shift(pointing.from, pointer, modifiers));
     match kind {
         HoldKind::Move => {
             let mut by_secs = plane.secs(pointer.x) - plane.secs(pointing.from.x);

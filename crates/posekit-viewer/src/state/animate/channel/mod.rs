@@ -21,11 +21,11 @@ use glam::{DQuat, DVec3};
 use posekit::keyframe::{Interpolation, Track};
 use posekit::rotation::{Axis, EulerOrder};
 
+use super::{LaneTrack, TrackValue};
 pub use edit::{
     Dot, Edited, Scaling, TangentKind, drag_handle, insert_on_curve, move_dots, scale_dots,
     set_beyond, set_interpolation, set_tangents,
 };
-use super::{LaneTrack, TrackValue};
 use parts::{InParts, Parts};
 pub use sampled::Sampled;
 use walk::Walk;

@@ -16,8 +16,8 @@ use posekit::rotation::EulerOrder;
 use posekit_formats::scene::JointValues;
 
 use super::channel::{
-    self, Channels, Dot, Edited, Side, TangentKind, insert_on_curve, set_beyond,
-    set_interpolation, set_tangents,
+    self, Channels, Dot, Edited, Side, TangentKind, insert_on_curve, set_beyond, set_interpolation,
+    set_tangents,
 };
 use super::{Authored, KeyId, Lane, TrackValue};
 use crate::state::session::Session;
@@ -116,8 +116,7 @@ impl Graph {
     /// The keyed lanes of selected joints and keys, and those that were pinned.
     fn shown_lanes(&self, session: &Session, authored: &Authored) -> BTreeSet<Lane> {
         let joints = session.selection().iter();
-        let of_joints =
-            joints.flat_map(|&joint| [Lane::Rotation(joint), Lane::Translation(joint)]);
+        let of_joints = joints.flat_map(|&joint| [Lane::Rotation(joint), Lane::Translation(joint)]);
         let of_keys = authored.selection().iter().map(|key| key.lane);
         let pinned = self.pinned.iter().copied();
         of_joints.chain(of_keys).chain(pinned).collect()
@@ -183,7 +182,8 @@ impl Graph {
     pub fn seen(&self) -> impl Iterator<Item = (ChannelId, &Arc<Channels>)> {
         self.curves.iter().flat_map(|(&lane, channels)| {
             let ids = (0..channels.count()).map(move |channel| ChannelId { lane, channel });
-            ids.filter(|id| self.is_seen(*id)).map(move |id| (id, channels))
+            ids.filter(|id| self.is_seen(*id))
+                .map(move |id| (id, channels))
         })
     }
 
@@ -298,7 +298,9 @@ impl Graph {
     /// Chooses the tangents of the selected keys.
     pub fn set_tangents(&mut self, session: &mut Session, kind: TangentKind) {
         let name = format!("{} tangents", kind.name());
-        self.edit_keys(session, &name, |track, keys| set_tangents(track, keys, kind));
+        self.edit_keys(session, &name, |track, keys| {
+            set_tangents(track, keys, kind)
+        });
     }
 
     /// Chooses how the selected keys go on.
@@ -310,7 +312,9 @@ impl Graph {
 
     /// Chooses how the lanes of the selected keys go on before their first or after their last key.
     pub fn set_beyond(&mut self, session: &mut Session, side: Side, way: Extrapolation) {
-        self.edit_keys(session, "Extrapolation", |track, _| set_beyond(track, side, way));
+        self.edit_keys(session, "Extrapolation", |track, _| {
+            set_beyond(track, side, way)
+        });
     }
 
     /// Takes the selected keys away. A lane that has none left is no longer keyed.
@@ -377,7 +381,12 @@ impl Graph {
                 channel: id.channel,
             },
         };
-        self.put(session, ("Insert key", None), vec![(id.lane, edited)], &BTreeSet::new());
+        self.put(
+            session,
+            ("Insert key", None),
+            vec![(id.lane, edited)],
+            &BTreeSet::new(),
+        );
         self.select(session, BTreeSet::from([dot]));
     }
 
@@ -424,8 +433,10 @@ impl Graph {
         if edited.is_empty() {
             return;
         }
-        let moved: BTreeMap<Lane, &BTreeMap<usize, usize>> =
-            edited.iter().map(|(lane, edited)| (*lane, &edited.keys)).collect();
+        let moved: BTreeMap<Lane, &BTreeMap<usize, usize>> = edited
+            .iter()
+            .map(|(lane, edited)| (*lane, &edited.keys))
+            .collect();
         let followed = dots.iter().filter_map(|id| {
             let Some(keys) = moved.get(&id.lane) else {
                 return Some(*id);
