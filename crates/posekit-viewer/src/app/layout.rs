@@ -34,14 +34,14 @@ impl Viewer {
         if self.take_keys_in_lab(ui) {
             return;
         }
+        if self.take_keys_of_timeline(ui) {
+            return;
+        }
         if self.session.is_dragging() {
             // While a handle is held there is one key: the one that lets it go without effect.
             if ui.input_mut(|i| i.consume_key(egui::Modifiers::NONE, egui::Key::Escape)) {
                 self.session.cancel_drag();
             }
-            return;
-        }
-        if ui.input_mut(|i| self.timeline.take_held_keys(i)) {
             return;
         }
         self.take_clipboard_keys(ui, asked);

@@ -335,7 +335,7 @@ fn keys_choose_tangents_and_interpolation_in_menus() {
     window.step();
     press(&mut window, Modifiers::NONE, Key::T);
     window.run_steps(2);
-    window.get_by_label("Step").click();
+    window.get_by_label("step").click();
     window.run_steps(2);
     let Some(LaneTrack::Orientation(track)) = authored(&window).track(ELBOW) else {
         panic!("the elbow is keyed");

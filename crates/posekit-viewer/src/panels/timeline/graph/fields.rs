@@ -2,9 +2,11 @@
 
 use egui::{DragValue, Response, RichText, ScrollArea, Ui};
 
-use super::menus::{INTERPOLATIONS, says};
 use super::{GraphPanel, paint};
 use crate::panels::row;
+use crate::panels::timeline::menu::{
+    INTERPOLATIONS, name_of, set_interpolation, set_tangents, tangents_say,
+};
 use crate::state::animate::channel::{Side, TangentKind};
 use crate::state::animate::graph::{DotId, HandleId, Step};
 use crate::state::edit::Gesture;
@@ -141,7 +143,7 @@ fn gesture(session: &mut Session, panel: &mut GraphPanel, response: &Response) -
 }
 
 /// How the selected keys go on, and their tangents, as those of the first are.
-fn ways(ui: &mut Ui, session: &mut Session, panel: &mut GraphPanel, first: DotId) {
+fn ways(ui: &mut Ui, session: &mut Session, panel: &GraphPanel, first: DotId) {
     let Some(curves) = panel.graph.curves().get(&first.lane).cloned() else {
         return;
     };
@@ -151,21 +153,14 @@ fn ways(ui: &mut Ui, session: &mut Session, panel: &mut GraphPanel, first: DotId
     }
     ui.add_space(GAP);
     let now = curves.interpolation(key);
-    let name = |interpolation| {
-        INTERPOLATIONS
-            .iter()
-            .find(|way| way.0 == interpolation)
-            .map_or("", |way| way.1)
-    };
-    row::line(ui, "Goes on", |ui| {
-        egui::ComboBox::from_id_salt("goes on")
+    row::line(ui, "Curve", |ui| {
+        egui::ComboBox::from_id_salt("curve")
             .width(84.0)
-            .selected_text(name(now))
+            .selected_text(name_of(now))
             .show_ui(ui, |ui| {
-                for (interpolation, name, says) in INTERPOLATIONS {
-                    let row = ui.selectable_label(now == interpolation, name);
-                    if row.on_hover_text(says).clicked() {
-                        panel.graph.set_interpolation(session, interpolation);
+                for way in INTERPOLATIONS {
+                    if ui.selectable_label(now == way, name_of(way)).clicked() {
+                        set_interpolation(session, way);
                     }
                 }
             });
@@ -178,8 +173,8 @@ fn ways(ui: &mut Ui, session: &mut Session, panel: &mut GraphPanel, first: DotId
             .show_ui(ui, |ui| {
                 for other in TangentKind::ALL {
                     let row = ui.selectable_label(kind == other, other.name());
-                    if row.on_hover_text(says(other)).clicked() {
-                        panel.graph.set_tangents(session, other);
+                    if row.on_hover_text(tangents_say(other)).clicked() {
+                        set_tangents(session, other);
                     }
                 }
             });

@@ -3,20 +3,11 @@
 use egui::{Event, InputState, Key, Ui};
 
 use super::GraphPanel;
-use super::menus::{Menu, MenuKind};
 use super::plane::Plane;
 use super::pointer::{Lock, Pointing};
 use crate::command::KeysCommand;
 use crate::panels::timeline::axis::TimeView;
 use crate::state::session::Session;
-
-/// What a key does to what is held.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum HeldKey {
-    Lock(Lock),
-    Confirm,
-    Cancel,
-}
 
 impl GraphPanel {
     /// Asks for something, which is done when the graph is shown next. False for what is not the
@@ -27,17 +18,15 @@ impl GraphPanel {
             KeysCommand::Move
                 | KeysCommand::Scale
                 | KeysCommand::SelectAll
-                | KeysCommand::SelectNone
-                | KeysCommand::Delete
-                | KeysCommand::Interpolation
-                | KeysCommand::Tangents
                 | KeysCommand::ViewAll
                 | KeysCommand::ViewSelected
         );
+        // A box is drawn here by dragging, and copies are made in the dope sheet.
+        let is_nothing = matches!(command, KeysCommand::BoxSelect | KeysCommand::Duplicate);
         if is_own {
             self.asked.push(command);
         }
-        is_own
+        is_own || is_nothing
     }
 
     /// Whether something follows the pointer, so that Esc and clicks are about that.
@@ -46,8 +35,8 @@ impl GraphPanel {
         self.pointing.is_some_and(|pointing| pointing.holds())
     }
 
-    /// Takes the keys that are about what is held: X and Y for the axis that it moves along, Enter, Esc.
-    pub fn take_held_keys(&mut self, input: &mut InputState) {
+    /// Takes the keys that say along which axis dots are moved: X for time, Y for values.
+    pub fn take_lock_keys(&mut self, input: &mut InputState) {
         input.events.retain(|event| {
             let Event::Key {
                 key, pressed: true, ..
@@ -55,27 +44,28 @@ impl GraphPanel {
             else {
                 return true;
             };
-            let asked = match key {
-                Key::X => HeldKey::Lock(Lock::Time),
-                Key::Y => HeldKey::Lock(Lock::Value),
-                Key::Enter => HeldKey::Confirm,
-                Key::Escape => HeldKey::Cancel,
+            let lock = match key {
+                Key::X => Lock::Time,
+                Key::Y => Lock::Value,
                 _ => return true,
             };
-            self.held_keys.push(asked);
+            if let Some(pointing) = &mut self.pointing {
+                pointing.toggle(lock);
+            }
             false
         });
     }
 
-    /// Does what keys have asked of what is held.
-    pub(super) fn run_held_keys(&mut self, session: &mut Session) {
-        for key in std::mem::take(&mut self.held_keys) {
-            match key {
-                HeldKey::Lock(lock) => self.lock(lock),
-                HeldKey::Confirm => self.drop_held(),
-                HeldKey::Cancel => self.give_up(session),
-            }
-        }
+    /// Lets what follows the pointer be where it is.
+    pub fn confirm(&mut self) {
+        self.drop_held();
+    }
+
+    /// Gives up what follows the pointer: everything is as it was.
+    pub fn cancel(&mut self, session: &mut Session) {
+        self.graph.give_up(session);
+        self.pointing = None;
+        self.menu = None;
     }
 }
 
@@ -90,27 +80,25 @@ pub(super) fn run(
 ) {
     let pointer = ui.input(|i| i.pointer.latest_pos());
     let from = pointer.unwrap_or(plane.rect.center());
-    match command {
-        KeysCommand::Move => {
-            if panel.graph.take_dots(session) {
-                panel.pointing = Some(Pointing::modal(&panel.graph, plane, from));
-            }
+    let held = match command {
+        KeysCommand::Move => panel.graph.take_dots(session),
+        KeysCommand::Scale => panel.graph.take_to_scale(session),
+        KeysCommand::ViewAll => {
+            panel.view_all(time, &plane.axis);
+            false
         }
-        KeysCommand::Scale => {
-            if panel.graph.take_to_scale(session) {
-                panel.pointing = Some(Pointing::modal(&panel.graph, plane, from));
-            }
+        KeysCommand::ViewSelected => {
+            panel.view_selected(time, &plane.axis);
+            false
         }
-        KeysCommand::Delete => panel.graph.delete(session),
-        KeysCommand::Interpolation => panel.menu = Some(Menu::at(MenuKind::Interpolation, from)),
-        KeysCommand::Tangents => panel.menu = Some(Menu::at(MenuKind::Tangents, from)),
-        KeysCommand::ViewAll => panel.view_all(time, &plane.axis),
-        KeysCommand::ViewSelected => panel.view_selected(time, &plane.axis),
         KeysCommand::SelectAll => {
             let dots = panel.graph.dots().collect();
             panel.graph.select(session, dots);
+            false
         }
-        KeysCommand::SelectNone => panel.graph.select(session, Default::default()),
-        _ => {}
+        _ => false,
+    };
+    if held {
+        panel.pointing = Some(Pointing::modal(&panel.graph, plane, from));
     }
 }

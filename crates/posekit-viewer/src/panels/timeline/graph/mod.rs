@@ -14,13 +14,13 @@ use std::sync::Arc;
 use egui::{Rect, Sense, Ui, UiBuilder, pos2};
 
 use crate::command::KeysCommand;
+use crate::panels::Asked;
 use crate::panels::timeline::axis::{self, Axis, TimeView};
 use crate::state::animate::Lane;
 use crate::state::animate::channel::{Channels, Sampled};
 use crate::state::animate::graph::{ChannelId, DotId, Graph};
 use crate::state::session::Session;
 use crate::theme::GAP;
-use menus::Menu;
 use plane::{Plane, ValueView};
 use pointer::Pointing;
 
@@ -49,8 +49,8 @@ pub struct GraphPanel {
     lines: BTreeMap<Lane, Line>,
     pointing: Option<Pointing>,
     asked: Vec<KeysCommand>,
-    held_keys: Vec<keys::HeldKey>,
-    menu: Option<Menu>,
+    /// Where the menu of the right button is, while it is open.
+    menu: Option<egui::Pos2>,
     /// The button that is down has let go of something: it asks for nothing more.
     press_is_spent: bool,
     /// Of the number that is dragged.
@@ -167,7 +167,13 @@ impl GraphPanel {
 }
 
 /// Shows the graph editor of the active clip's scene in all of the room that there is.
-pub fn show(ui: &mut Ui, session: &mut Session, panel: &mut GraphPanel, time: &mut TimeView) {
+pub fn show(
+    ui: &mut Ui,
+    session: &mut Session,
+    panel: &mut GraphPanel,
+    time: &mut TimeView,
+    asked: &mut Asked,
+) {
     panel.graph.update(session);
     panel.fit_new();
     let whole = ui.available_rect_before_wrap();
@@ -188,7 +194,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, panel: &mut GraphPanel, time: &m
         let fields = Rect::from_min_max(pos2(right + 2.0 * GAP, whole.top()), whole.max);
         in_rect(ui, fields, |ui| fields::show(ui, session, panel));
     }
-    show_plot(ui, plot, session, panel, time);
+    show_plot(ui, plot, session, panel, (time, asked));
 }
 
 fn in_rect(ui: &mut Ui, rect: Rect, contents: impl FnOnce(&mut Ui)) {
@@ -202,7 +208,7 @@ fn show_plot(
     whole: Rect,
     session: &mut Session,
     panel: &mut GraphPanel,
-    time: &mut TimeView,
+    (time, asked): (&mut TimeView, &mut Asked),
 ) {
     let (ruler, rect) = whole.split_top_bottom_at_y(whole.top() + axis::RULER_HEIGHT);
     let plane_now = |session: &Session, panel: &GraphPanel, time: &TimeView| {
@@ -235,9 +241,8 @@ fn show_plot(
     let Some(plane) = plane_now(session, panel, time) else {
         return;
     };
-    panel.run_held_keys(session);
     pointer::follow(ui, &response, session, panel, &plane);
     panel.plane = Some(plane);
     paint::show(ui, &response, session, panel, &plane);
-    menus::show(ui, &response, session, panel);
+    menus::show(ui, &response, session, panel, asked);
 }

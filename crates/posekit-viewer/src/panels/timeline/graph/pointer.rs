@@ -82,26 +82,19 @@ impl Pointing {
         matches!(self.task, Task::Hold { .. })
     }
 
+    /// Locks the movement to an axis; the same axis again frees it.
+    pub(super) fn toggle(&mut self, lock: Lock) {
+        self.lock = (self.lock != Some(lock)).then_some(lock);
+    }
+
     fn is_modal(&self) -> bool {
         matches!(self.task, Task::Hold { is_modal: true, .. })
     }
 }
 
 impl GraphPanel {
-    pub(super) fn lock(&mut self, lock: Lock) {
-        if let Some(pointing) = &mut self.pointing {
-            // The same key again takes it back.
-            pointing.lock = (pointing.lock != Some(lock)).then_some(lock);
-        }
-    }
-
     pub(super) fn drop_held(&mut self) {
         self.graph.let_go();
-        self.pointing = None;
-    }
-
-    pub(super) fn give_up(&mut self, session: &mut Session) {
-        self.graph.give_up(session);
         self.pointing = None;
     }
 }
@@ -211,7 +204,7 @@ fn follow_modal(
     });
     panel.press_is_spent = primary || secondary;
     if secondary {
-        panel.give_up(session);
+        panel.cancel(session);
         return;
     }
     if let (Some(pointer), Some(pointing)) = (pointer, panel.pointing) {

@@ -6,7 +6,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use posekit::keyframe::edit::{EditError, SAME_TIME_SECS, key_on_curve, replace_keys};
-use posekit::keyframe::{Extrapolation, Interpolation, Keyframe, Tangents, Track};
+use posekit::keyframe::{Keyframe, Tangents, Track};
 
 use super::parts::{InParts, Parts};
 use super::{Channels, Side, with_track};
@@ -209,18 +209,6 @@ pub fn set_tangents(
     }))
 }
 
-/// Chooses how the segments that start at keys are filled.
-///
-/// # Errors
-/// None that a valid track can give.
-pub fn set_interpolation(
-    track: &TrackValue,
-    keys: &BTreeSet<usize>,
-    interpolation: Interpolation,
-) -> Result<Edited, EditError> {
-    with_track!(track, track => change_keys(track, keys, |_, key| key.interpolation = interpolation))
-}
-
 /// Puts a key onto the curve, which moves as little as can be.
 ///
 /// # Errors
@@ -229,21 +217,6 @@ pub fn insert_on_curve(track: &TrackValue, time_secs: f64) -> Result<Edited, Edi
     with_track!(track, track => {
         let with_key = replace_keys(track, &[], vec![key_on_curve(track, time_secs)])?;
         Ok(found_again(track, with_key, &BTreeMap::new()))
-    })
-}
-
-/// Chooses how a track goes on before its first key, or after its last one.
-///
-/// # Errors
-/// None that a valid track can give.
-pub fn set_beyond(track: &TrackValue, side: Side, way: Extrapolation) -> Result<Edited, EditError> {
-    with_track!(track, track => {
-        let ends = match side {
-            Side::Incoming => [way, track.after()],
-            Side::Outgoing => [track.before(), way],
-        };
-        let edited = Track::with_ends(track.keys().to_vec(), ends[0], ends[1])?;
-        Ok(found_again(track, edited, &BTreeMap::new()))
     })
 }
 

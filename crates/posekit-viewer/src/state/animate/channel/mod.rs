@@ -24,7 +24,7 @@ use posekit::rotation::{Axis, EulerOrder};
 use super::{LaneTrack, TrackValue};
 pub use edit::{
     Dot, Edited, Scaling, TangentKind, drag_handle, insert_on_curve, move_dots, scale_dots,
-    set_beyond, set_interpolation, set_tangents,
+    set_tangents,
 };
 use parts::{InParts, Parts};
 pub use sampled::Sampled;

@@ -10,16 +10,12 @@ mod hold;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use posekit::keyframe::edit::{EditError, delete_keys};
-use posekit::keyframe::{Extrapolation, Interpolation};
+use posekit::keyframe::edit::SAME_TIME_SECS;
 use posekit::rotation::EulerOrder;
 use posekit_formats::scene::JointValues;
 
-use super::channel::{
-    self, Channels, Dot, Edited, Side, TangentKind, insert_on_curve, set_beyond, set_interpolation,
-    set_tangents,
-};
-use super::{Authored, KeyId, Lane, TrackValue};
+use super::channel::{self, Channels, Dot, Edited, Side, insert_on_curve};
+use super::{Authored, KeyId, Lane};
 use crate::state::session::Session;
 pub use hold::{Held, HoldKind};
 
@@ -286,81 +282,6 @@ impl Graph {
         })
     }
 
-    /// The selected keys of each lane.
-    fn selected_keys(&self) -> BTreeMap<Lane, BTreeSet<usize>> {
-        let mut keys: BTreeMap<Lane, BTreeSet<usize>> = BTreeMap::new();
-        for dot in self.selected() {
-            keys.entry(dot.lane).or_default().insert(dot.dot.key);
-        }
-        keys
-    }
-
-    /// Chooses the tangents of the selected keys.
-    pub fn set_tangents(&mut self, session: &mut Session, kind: TangentKind) {
-        let name = format!("{} tangents", kind.name());
-        self.edit_keys(session, &name, |track, keys| {
-            set_tangents(track, keys, kind)
-        });
-    }
-
-    /// Chooses how the selected keys go on.
-    pub fn set_interpolation(&mut self, session: &mut Session, interpolation: Interpolation) {
-        self.edit_keys(session, "Interpolation", |track, keys| {
-            set_interpolation(track, keys, interpolation)
-        });
-    }
-
-    /// Chooses how the lanes of the selected keys go on before their first or after their last key.
-    pub fn set_beyond(&mut self, session: &mut Session, side: Side, way: Extrapolation) {
-        self.edit_keys(session, "Extrapolation", |track, _| {
-            set_beyond(track, side, way)
-        });
-    }
-
-    /// Takes the selected keys away. A lane that has none left is no longer keyed.
-    pub fn delete(&mut self, session: &mut Session) {
-        let keys = self.selected_keys();
-        let changes: Vec<(Lane, Option<TrackValue>)> = keys
-            .into_iter()
-            .filter_map(|(lane, keys)| {
-                let keys: Vec<usize> = keys.into_iter().collect();
-                let left = match self.curves.get(&lane)?.track() {
-                    TrackValue::Number(track) => delete_keys(track, &keys).map(TrackValue::from),
-                    TrackValue::Vector(track) => delete_keys(track, &keys).map(TrackValue::from),
-                    TrackValue::Orientation(track) => {
-                        delete_keys(track, &keys).map(TrackValue::from)
-                    }
-                };
-                Some((lane, left))
-            })
-            .collect();
-        if changes.is_empty() {
-            return;
-        }
-        self.dots.clear();
-        session.author(|authored| {
-            authored.set_tracks("Delete keys", None, changes, BTreeSet::new());
-        });
-        self.update(session);
-    }
-
-    /// Edits the selected keys, lane by lane, as one step.
-    fn edit_keys(
-        &mut self,
-        session: &mut Session,
-        name: &str,
-        edit: impl Fn(&TrackValue, &BTreeSet<usize>) -> Result<Edited, EditError>,
-    ) {
-        let keys = self.selected_keys();
-        let edited = keys.iter().filter_map(|(&lane, keys)| {
-            let channels = self.curves.get(&lane)?;
-            Some((lane, edit(channels.track(), keys).ok()?))
-        });
-        let edited: Vec<(Lane, Edited)> = edited.collect();
-        let dots = self.dots.clone();
-        self.put(session, (name, None), edited, &dots);
-    }
-
     /// Puts a key onto a lane's curve, which does not move, and selects it.
     pub fn insert_key(&mut self, session: &mut Session, id: ChannelId, time_secs: f64) {
         let Some(channels) = self.curves.get(&id.lane) else {
@@ -370,7 +291,7 @@ impl Graph {
             return;
         };
         let times = edited.track.as_track();
-        let at = |time: &f64| (time - time_secs).abs() <= posekit::keyframe::edit::SAME_TIME_SECS;
+        let at = |time: &f64| (time - time_secs).abs() <= SAME_TIME_SECS;
         let Some(key) = times.times_secs().iter().position(at) else {
             return;
         };
