@@ -93,7 +93,7 @@ fn open_dialog(outbox: Outbox) -> Option<()> {
     let document = web_sys::window()?.document()?;
     let input: HtmlInputElement = document.create_element("input").ok()?.dyn_into().ok()?;
     input.set_type("file");
-    input.set_accept(".bvh,.urdf");
+    input.set_accept(".bvh,.urdf,.toml");
     input.set_multiple(true);
     let chosen = input.clone();
     let on_change = Closure::once_into_js(move || {

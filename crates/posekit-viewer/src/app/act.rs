@@ -106,7 +106,7 @@ impl Viewer {
         }
     }
 
-    fn ask_for_files(&self) {
+    pub(super) fn ask_for_files(&self) {
         #[cfg(not(target_arch = "wasm32"))]
         files::ask_for_files(self.loader.outbox());
         #[cfg(target_arch = "wasm32")]

@@ -48,6 +48,7 @@ impl Viewer {
                     let begun = self.beginnings.remove(&job).map(Purpose::Replace);
                     self.take_clip(ctx, begun.unwrap_or(purpose), *clip, *thumbnail);
                 }
+                Event::Poses { name, poses } => self.take_poses(&name, poses, now),
                 Event::Robot(robot) => self.take_robot(*robot, now),
                 Event::Failed { message } => {
                     self.notices.add(NoticeKind::Failure, message, now);

@@ -34,7 +34,7 @@ impl Viewer {
         if self.take_keys_in_lab(ui) {
             return;
         }
-        if self.take_keys_of_timeline(ui) {
+        if self.take_keys_of_timeline(ui) || self.take_keys_of_poses(ui) {
             return;
         }
         if self.session.is_dragging() {
@@ -128,6 +128,10 @@ impl Viewer {
                 joints::show(ui, &mut self.session, &mut self.tree);
             });
         CentralPanel::no_frame().show(ui, |ui| {
+            if self.show_clips_or_poses(ui) {
+                self.show_poses(ui);
+                return;
+            }
             library::show(
                 ui,
                 &self.session,

@@ -5,6 +5,7 @@ mod animate;
 mod events;
 mod lab;
 mod layout;
+mod poses;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
@@ -20,10 +21,13 @@ use crate::panels::curves::CurvePanel;
 use crate::panels::export::ExportWindow;
 use crate::panels::joints::JointTree;
 use crate::panels::library::Preview;
+use crate::panels::pose_library::PosePanel;
 use crate::panels::timeline::Timeline;
+
 use crate::picture::painter::Painter;
 use crate::picture::thumbnail::thumbnail;
 use crate::picture::{Texture, to_color_image};
+use crate::state::animate::pose_library::PoseLibrary;
 use crate::state::arm::ArmLab;
 use crate::state::clip::Clip;
 use crate::state::library::Library;
@@ -71,6 +75,10 @@ pub struct Viewer {
     tree: JointTree,
     curves: CurvePanel,
     timeline: Timeline,
+    poses: PoseLibrary,
+    pose_panel: PosePanel,
+    /// Kept poses that could not be read.
+    unreadable_poses: Option<String>,
     notices: Notices,
     layout: WindowLayout,
     help_open: bool,
@@ -114,6 +122,9 @@ impl Viewer {
             tree: JointTree::default(),
             curves: CurvePanel::default(),
             timeline: Timeline::default(),
+            poses: PoseLibrary::default(),
+            pose_panel: PosePanel::default(),
+            unreadable_poses: None,
             notices: Notices::default(),
             layout: settings.layout,
             help_open: false,
@@ -146,7 +157,11 @@ impl Viewer {
         #[cfg(target_arch = "wasm32")]
         let settings: Settings = kept.unwrap_or_else(crate::web::first_settings);
         let graphics = context.wgpu_render_state.as_ref();
-        Self::new(&context.egui_ctx, graphics, &settings, options)
+        let mut viewer = Self::new(&context.egui_ctx, graphics, &settings, options);
+        if let Some(storage) = context.storage {
+            viewer.take_kept_poses(storage);
+        }
+        viewer
     }
 
     fn start(&mut self, ctx: &egui::Context, options: ViewerOptions) {
@@ -346,5 +361,6 @@ impl eframe::App for Viewer {
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
         eframe::set_value(storage, SETTINGS_KEY, &self.settings());
+        self.keep_poses(storage);
     }
 }

@@ -6,6 +6,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use posekit_formats::bvh::{self, Extent, ReadOptions};
+use posekit_formats::poses::{self, SavedPose, is_poses_name};
 use posekit_formats::report::ReadErrorKind;
 
 use super::{Event, Input, JobId, Outbox, Progress, Purpose, SummaryNumbers};
@@ -25,6 +26,7 @@ const BEGINNING_BYTES: usize = 1 << 20;
 pub(super) enum Opened {
     Clip(Box<Clip>),
     Robot(Box<Robot>),
+    Poses(String, Vec<SavedPose>),
 }
 
 /// Whether a file says that it is a robot's: by its name, or because it is XML, which motions are not.
@@ -74,6 +76,9 @@ impl Reading {
             Ok(Opened::Robot(robot)) => {
                 self.outbox.send(Event::Robot(robot));
             }
+            Ok(Opened::Poses(name, poses)) => {
+                self.outbox.send(Event::Poses { name, poses });
+            }
             Ok(Opened::Clip(clip)) => {
                 let thumbnail = Box::new(to_color_image(&thumbnail(&clip)));
                 self.outbox.send(Event::Read {
@@ -119,6 +124,10 @@ impl Reading {
 
     /// What the bytes of a file hold: a robot, or a clip as [`clip_of`](Self::clip_of) reads it.
     pub(super) fn open(&self, name: &str, source: Source, bytes: &[u8]) -> Result<Opened, Stop> {
+        if is_poses_name(name) {
+            let poses = poses::read(bytes).map_err(|error| Stop::Failed(error.in_file(name)))?;
+            return Ok(Opened::Poses(name.to_owned(), poses));
+        }
         if is_robot(name, bytes) {
             let robot =
                 Robot::read(name, bytes).map_err(|why| Stop::Failed(format!("{name}: {why}")))?;

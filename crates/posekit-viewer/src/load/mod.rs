@@ -91,6 +91,13 @@ pub enum Event {
     },
     /// A robot was read.
     Robot(Box<Robot>),
+    /// A file of poses was read.
+    Poses {
+        /// Its name.
+        name: String,
+        /// The poses.
+        poses: Vec<posekit_formats::poses::SavedPose>,
+    },
     /// Something could not be done.
     Failed {
         /// What, and why, for people.

@@ -11,6 +11,7 @@ pub mod inspector;
 pub mod joints;
 pub mod library;
 pub mod notices;
+pub mod pose_library;
 pub mod row;
 pub mod timeline;
 pub mod top_bar;

@@ -199,8 +199,18 @@ pub fn rest_motion(motion: &Motion, time_secs: f64, place: Vec3) -> Motion {
     for root in skeleton.roots() {
         rest.translations[root.index()] = here.translations[root.index()] + place;
     }
+    still(skeleton, &rest)
+}
+
+/// A motion of one frame: a pose.
+///
+/// # Panics
+/// If the pose has not as many joints as the skeleton.
+#[must_use]
+pub fn still(skeleton: &Arc<Skeleton>, pose: &LocalPose) -> Motion {
     let roots: Vec<_> = skeleton.roots().collect();
-    Motion::from_poses(Arc::clone(skeleton), 1.0 / 30.0, roots, &[rest])
+    let pose = pose.clone();
+    Motion::from_poses(Arc::clone(skeleton), 1.0 / 30.0, roots, &[pose])
 }
 
 /// Everything suspicious in a clip.

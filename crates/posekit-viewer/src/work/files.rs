@@ -115,7 +115,7 @@ mod desktop {
         in_thread(outbox, |outbox| {
             let dialog = rfd::FileDialog::new()
                 .set_title("Open motion files")
-                .add_filter("Motion and robots", &["bvh", "BVH", "urdf", "URDF"]);
+                .add_filter("Motion and robots", &["bvh", "BVH", "urdf", "URDF", "toml"]);
             if let Some(paths) = dialog.pick_files() {
                 let inputs = paths.into_iter().map(Input::Path).collect();
                 outbox.send(Event::Chosen(Chosen::Inputs(inputs)));

@@ -19,7 +19,9 @@ use posekit_viewer::state::mode::Mode;
 use super::editing::drag;
 use super::window::{Window, input, laptop, press, settle, viewer};
 
-const ELBOW: Lane = Lane::Rotation(JointId::new(1));
+fn elbow() -> Lane {
+    Lane::Rotation(JointId::new(1))
+}
 
 const ORDER: EulerOrder = EulerOrder::ZXY;
 
@@ -47,7 +49,7 @@ fn scene(window: &Window) -> Authored {
     let places = places.map(|(time, place)| Keyframe::new(time, place, Interpolation::Cubic));
     let place = Track::new(places.to_vec(), Extrapolation::Hold).expect("valid");
     let changes = vec![
-        (ELBOW, Some(TrackValue::Orientation(elbow))),
+        (elbow(), Some(TrackValue::Orientation(elbow))),
         (Lane::CameraPosition(0), Some(TrackValue::Vector(place))),
     ];
     authored.set_tracks("Start", None, changes, BTreeSet::new());
@@ -80,7 +82,7 @@ fn authored(window: &Window) -> &Authored {
 
 fn dot(key: usize, channel: usize) -> DotId {
     DotId {
-        lane: ELBOW,
+        lane: elbow(),
         dot: Dot { key, channel },
     }
 }
@@ -91,7 +93,7 @@ fn at(window: &Window, id: DotId) -> Pos2 {
 
 /// The angles of the elbow's key, degrees, in the order Z, X, Y.
 fn angles(window: &Window, key: usize) -> [f64; 3] {
-    let Some(LaneTrack::Orientation(track)) = authored(window).track(ELBOW) else {
+    let Some(LaneTrack::Orientation(track)) = authored(window).track(elbow()) else {
         panic!("the elbow is keyed");
     };
     let angles = ORDER.from_quat(track.keys()[key].value);
@@ -99,7 +101,7 @@ fn angles(window: &Window, key: usize) -> [f64; 3] {
 }
 
 fn times(window: &Window) -> Vec<f64> {
-    let track = authored(window).track(ELBOW).expect("the elbow is keyed");
+    let track = authored(window).track(elbow()).expect("the elbow is keyed");
     track.times_secs().to_vec()
 }
 
@@ -107,6 +109,14 @@ fn times(window: &Window) -> Vec<f64> {
 fn degrees_per_point(window: &Window) -> f64 {
     let apart = at(window, dot(0, 0)).y - at(window, dot(1, 0)).y;
     60.0 / f64::from(apart)
+}
+
+fn click(window: &mut Window, at: Pos2) {
+    window.hover_at(at);
+    window.step();
+    window.drag_at(at);
+    window.drop_at(at);
+    window.run_steps(2);
 }
 
 fn drag_and_drop(window: &mut Window, from: Pos2, by: Vec2) {
@@ -183,9 +193,10 @@ fn dots_go_from_frame_to_frame_and_freely_with_ctrl() {
         let apart = at(&window, dot(2, 0)).x - at(&window, dot(0, 0)).x;
         2.0 / f64::from(apart)
     };
-    window.key_down_modifiers(Modifiers::COMMAND, Key::F20);
+    window.event(egui::Event::ModifiersChanged(Modifiers::COMMAND));
     drag_and_drop(&mut window, from, vec2(61.0, 0.0));
-    window.key_up_modifiers(Modifiers::COMMAND, Key::F20);
+    window.event(egui::Event::ModifiersChanged(Modifiers::NONE));
+    window.run_steps(2);
     let moved = times(&window)[1] - before;
     assert!((moved - 61.0 * per_point).abs() < 0.004, "{moved}");
 }
@@ -194,10 +205,7 @@ fn dots_go_from_frame_to_frame_and_freely_with_ctrl() {
 fn a_handle_that_is_dragged_is_aligned_and_lies_under_the_pointer() {
     let mut window = graphing();
     let from = at(&window, dot(1, 0));
-    window.hover_at(from);
-    window.step();
-    window.click_at(from);
-    window.run_steps(2);
+    click(&mut window, from);
     assert_eq!(
         panel(&window).graph().selected(),
         BTreeSet::from([dot(1, 0)]),
@@ -216,7 +224,7 @@ fn a_handle_that_is_dragged_is_aligned_and_lies_under_the_pointer() {
         .handle_on_screen(handle)
         .expect("it is shown");
     assert!(after.distance(place + by) < 1.0, "{after} {place}");
-    let curves = &panel(&window).graph().curves()[&ELBOW];
+    let curves = &panel(&window).graph().curves()[&elbow()];
     assert_eq!(curves.tangent_kind(1), TangentKind::Aligned);
     let [incoming, outgoing] = curves.slopes(1).expect("no lock");
     assert!((incoming[0] - outgoing[0]).abs() < 1e-6);
@@ -229,7 +237,7 @@ fn a_handle_that_is_dragged_is_aligned_and_lies_under_the_pointer() {
     let other = panel(&window).handle_on_screen(other).expect("it is shown");
     assert!(other.y > from.y + 20.0);
     press(&mut window, Modifiers::COMMAND, Key::Z);
-    let curves = &panel(&window).graph().curves()[&ELBOW];
+    let curves = &panel(&window).graph().curves()[&elbow()];
     assert_eq!(curves.tangent_kind(1), TangentKind::Auto);
 }
 
@@ -321,15 +329,12 @@ fn s_scales_about_the_middle_and_the_right_button_gives_it_up() {
 fn keys_choose_tangents_and_interpolation_in_menus() {
     let mut window = graphing();
     let place = at(&window, dot(1, 0));
-    window.hover_at(place);
-    window.step();
-    window.click_at(place);
-    window.run_steps(2);
+    click(&mut window, place);
     press(&mut window, Modifiers::NONE, Key::V);
     window.run_steps(2);
     window.get_by_label("Broken").click();
     window.run_steps(2);
-    let kind = |window: &Window| panel(window).graph().curves()[&ELBOW].tangent_kind(1);
+    let kind = |window: &Window| panel(window).graph().curves()[&elbow()].tangent_kind(1);
     assert_eq!(kind(&window), TangentKind::Broken);
     window.hover_at(place);
     window.step();
@@ -337,7 +342,7 @@ fn keys_choose_tangents_and_interpolation_in_menus() {
     window.run_steps(2);
     window.get_by_label("step").click();
     window.run_steps(2);
-    let Some(LaneTrack::Orientation(track)) = authored(&window).track(ELBOW) else {
+    let Some(LaneTrack::Orientation(track)) = authored(&window).track(elbow()) else {
         panic!("the elbow is keyed");
     };
     assert_eq!(track.keys()[1].interpolation, Interpolation::Step);
@@ -350,18 +355,14 @@ fn a_double_click_on_a_curve_puts_a_key_there_and_x_takes_it_away() {
     let mut window = graphing();
     let rect = panel(&window).plot_rect().expect("it is shown");
     let between = at(&window, dot(0, 0)).x * 0.5 + at(&window, dot(1, 0)).x * 0.5;
-    let curves = std::sync::Arc::clone(&panel(&window).graph().curves()[&ELBOW]);
+    let curves = std::sync::Arc::clone(&panel(&window).graph().curves()[&elbow()]);
     let value = curves.at(0.5)[0];
     let [zero, sixty] = [at(&window, dot(0, 0)).y, at(&window, dot(1, 0)).y];
     let share = (value / 60.0) as f32;
     let place = Pos2::new(between, zero + (sixty - zero) * share);
     assert!(rect.contains(place));
-    window.hover_at(place);
-    window.step();
-    window.click_at(place);
-    window.step();
-    window.click_at(place);
-    window.run_steps(3);
+    click(&mut window, place);
+    click(&mut window, place);
     assert_eq!(times(&window).len(), 4);
     assert!((times(&window)[1] - 0.5).abs() < 1e-6);
     assert!(
@@ -386,6 +387,7 @@ fn the_wheel_zooms_in_time_and_with_ctrl_in_value() {
             delta: vec2(0.0, 60.0),
             phase: egui::TouchPhase::Move,
             modifiers,
+            source: Default::default(),
         });
         window.run_steps(20);
     };
@@ -423,7 +425,7 @@ fn channels_are_hidden_and_other_lanes_shown() {
     let mut window = graphing();
     let graph = |window: &Window| panel(window).graph().clone();
     let channel = ChannelId {
-        lane: ELBOW,
+        lane: elbow(),
         channel: 1,
     };
     assert!(graph(&window).is_seen(channel));
@@ -458,10 +460,7 @@ fn channels_are_hidden_and_other_lanes_shown() {
 fn numbers_of_the_selected_key_can_be_typed() {
     let mut window = graphing();
     let place = at(&window, dot(1, 0));
-    window.hover_at(place);
-    window.step();
-    window.click_at(place);
-    window.run_steps(2);
+    click(&mut window, place);
     let steps = authored(&window).undo_count();
     let set = |window: &mut Window, holds: &str, text: &str| {
         let field = window

@@ -15,6 +15,7 @@ pub mod edit;
 pub mod graph;
 mod lane;
 pub mod place;
+pub mod pose_library;
 mod start;
 
 use std::collections::{BTreeMap, BTreeSet};

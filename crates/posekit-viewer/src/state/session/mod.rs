@@ -4,6 +4,7 @@
 mod authoring;
 mod editing;
 mod limbs;
+mod posing;
 mod selection;
 mod staging;
 
