@@ -118,6 +118,10 @@ impl Viewer {
     }
 
     fn show_left(&mut self, ui: &mut Ui, asked: &mut Asked) {
+        if self.show_clips_or_poses(ui) {
+            self.show_poses(ui);
+            return;
+        }
         Panel::bottom("joints")
             .frame(Frame::NONE)
             .resizable(true)
@@ -128,10 +132,6 @@ impl Viewer {
                 joints::show(ui, &mut self.session, &mut self.tree);
             });
         CentralPanel::no_frame().show(ui, |ui| {
-            if self.show_clips_or_poses(ui) {
-                self.show_poses(ui);
-                return;
-            }
             library::show(
                 ui,
                 &self.session,

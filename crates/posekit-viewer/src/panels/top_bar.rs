@@ -229,14 +229,14 @@ fn figure_menu(ui: &mut Ui, session: &mut Session, asked: &mut Asked) {
         );
         check(ui, &mut display.axes, "Axes of joints", Command::ToggleAxes);
         ui.separator();
-        trails_and_ghosts(ui, &mut display);
+        trails_and_ghosts(ui, &mut display, session.mode());
         ui.separator();
         item(ui, "Rest pose", Command::ToggleRest, asked);
     });
     session.set_display(display);
 }
 
-fn trails_and_ghosts(ui: &mut Ui, display: &mut Display) {
+fn trails_and_ghosts(ui: &mut Ui, display: &mut Display, mode: Mode) {
     check(
         ui,
         &mut display.trails,
@@ -250,6 +250,14 @@ fn trails_and_ghosts(ui: &mut Ui, display: &mut Display) {
     });
     check(ui, &mut display.ghosts, "Ghosts", Command::ToggleGhosts);
     ui.add_enabled_ui(display.ghosts, |ui| {
+        if mode == Mode::Animate {
+            ui.checkbox(&mut display.ghosts_at_keys, "At keys")
+                .on_hover_text("Poses of the keys before and after, green and purple: of the selected joints, or of all");
+            if display.ghosts_at_keys {
+                ui.add(egui::Slider::new(&mut display.ghost_keys, 1..=8).text("keys each way"));
+                return;
+            }
+        }
         let slider = egui::Slider::new(&mut display.ghost_every_frames, 1..=120);
         ui.add(slider.logarithmic(true).text("frames apart"))
             .on_hover_text("Earlier and later poses, shown faintly");

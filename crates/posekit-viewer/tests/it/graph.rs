@@ -41,7 +41,7 @@ fn scene(window: &Window) -> Authored {
         Keyframe::new(time, ORDER.to_quat(angles), Interpolation::Cubic)
     };
     let keys = vec![key(0.0, 0.0), key(1.0, 60.0), key(2.0, 20.0)];
-    let elbow = Track::new(keys, Extrapolation::Hold).expect("valid");
+    let turns = Track::new(keys, Extrapolation::Hold).expect("valid");
     let places = [
         (0.0, DVec3::new(0.0, 1.0, 4.0)),
         (2.0, DVec3::new(2.0, 1.0, 4.0)),
@@ -49,7 +49,7 @@ fn scene(window: &Window) -> Authored {
     let places = places.map(|(time, place)| Keyframe::new(time, place, Interpolation::Cubic));
     let place = Track::new(places.to_vec(), Extrapolation::Hold).expect("valid");
     let changes = vec![
-        (elbow(), Some(TrackValue::Orientation(elbow))),
+        (elbow(), Some(TrackValue::Orientation(turns))),
         (Lane::CameraPosition(0), Some(TrackValue::Vector(place))),
     ];
     authored.set_tracks("Start", None, changes, BTreeSet::new());
@@ -57,7 +57,7 @@ fn scene(window: &Window) -> Authored {
 }
 
 /// The graph of that scene, the elbow selected.
-fn graphing() -> Window {
+pub(super) fn graphing() -> Window {
     let mut window = laptop(vec![input("arm.bvh", 20)]);
     press(&mut window, Modifiers::NONE, Key::Space);
     let authored = scene(&window);
@@ -76,7 +76,7 @@ fn panel(window: &Window) -> &GraphPanel {
     viewer(window).timeline().graph()
 }
 
-fn authored(window: &Window) -> &Authored {
+pub(super) fn authored(window: &Window) -> &Authored {
     viewer(window).session().authored().expect("it is authored")
 }
 
@@ -92,7 +92,7 @@ fn at(window: &Window, id: DotId) -> Pos2 {
 }
 
 /// The angles of the elbow's key, degrees, in the order Z, X, Y.
-fn angles(window: &Window, key: usize) -> [f64; 3] {
+pub(super) fn angles(window: &Window, key: usize) -> [f64; 3] {
     let Some(LaneTrack::Orientation(track)) = authored(window).track(elbow()) else {
         panic!("the elbow is keyed");
     };
@@ -100,7 +100,7 @@ fn angles(window: &Window, key: usize) -> [f64; 3] {
     angles.angles_rad.map(f64::to_degrees)
 }
 
-fn times(window: &Window) -> Vec<f64> {
+pub(super) fn times(window: &Window) -> Vec<f64> {
     let track = authored(window).track(elbow()).expect("the elbow is keyed");
     track.times_secs().to_vec()
 }
@@ -387,7 +387,7 @@ fn the_wheel_zooms_in_time_and_with_ctrl_in_value() {
             delta: vec2(0.0, 60.0),
             phase: egui::TouchPhase::Move,
             modifiers,
-            source: Default::default(),
+            source: egui::MouseWheelSource::Wheel,
         });
         window.run_steps(20);
     };

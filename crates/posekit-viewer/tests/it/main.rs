@@ -11,6 +11,7 @@ mod graph;
 mod limbs;
 mod numbers;
 mod pictures;
+mod poses;
 mod reading;
 mod real_files;
 mod saving;

@@ -267,6 +267,8 @@ fn counted(count: usize) -> String {
 /// Shows the timeline in all the room that is left.
 pub fn show(ui: &mut Ui, session: &mut Session, timeline: &mut Timeline, asked: &mut Asked) {
     timeline.rect = Some(ui.max_rect());
+    // What is in it takes whatever room there is; the panel keeps the height that it was given.
+    ui.set_min_size(ui.available_size());
     if session.authored().is_none() {
         begin::show(ui, session, &mut timeline.begin, asked);
         return;

@@ -143,7 +143,7 @@ impl Session {
     }
 
     /// Which of the stage's actors is the active clip's.
-    fn active_actor(&self) -> Option<usize> {
+    pub(super) fn active_actor(&self) -> Option<usize> {
         self.shown().position(|open| Some(open.id) == self.active)
     }
 

@@ -391,9 +391,10 @@ impl Session {
         was_stepping
     }
 
-    /// Ends stepping when something else is looked at.
+    /// Ends stepping when something else is looked at; what goes with the time shown follows it.
     pub fn follow_changes(&mut self) {
         self.follow_time();
+        self.follow_key_ghosts();
         let (frame, joint) = (self.transport.frame(), self.effector());
         let fits = |way: &Stepping| way.frame == frame && Some(way.joint) == joint;
         if self.limbs.stepping.as_ref().is_some_and(|way| !fits(way)) {
