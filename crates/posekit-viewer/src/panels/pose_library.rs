@@ -209,7 +209,9 @@ fn list(ui: &mut Ui, session: &mut Session, library: &PoseLibrary, panel: &mut P
 impl PosePanel {
     fn picture(&self, id: PoseId, skeleton: &Arc<Skeleton>) -> Option<&Picture> {
         let picture = self.pictures.get(&id)?;
-        Arc::ptr_eq(&picture.of, skeleton).then_some(picture)
+        // An edit may make the same skeleton anew.
+        let same = Arc::ptr_eq(&picture.of, skeleton) || picture.of == *skeleton;
+        same.then_some(picture)
     }
 
     fn draw(&mut self, ui: &Ui, library: &PoseLibrary, id: PoseId, skeleton: &Arc<Skeleton>) {

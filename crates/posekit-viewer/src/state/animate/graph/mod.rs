@@ -15,7 +15,7 @@ use posekit::rotation::EulerOrder;
 use posekit_formats::scene::JointValues;
 
 use super::channel::{self, Channels, Dot, Edited, Side, insert_on_curve};
-use super::{Authored, KeyId, Lane};
+use super::{Authored, KeyId, Lane, Owner};
 use crate::state::session::Session;
 pub use hold::{Held, HoldKind};
 
@@ -261,8 +261,15 @@ impl Graph {
         channels.handle(dot.key, dot.channel, id.side)
     }
 
-    /// Selects dots, and with them their keys.
+    /// Selects dots, and with them their keys. What was shown stays so, though nothing of it may be
+    /// selected any more.
     pub fn select(&mut self, session: &mut Session, dots: BTreeSet<DotId>) {
+        let is_joints = |lane: &Lane| match lane.owner() {
+            Owner::Joint(joint) => session.selection().contains(&joint),
+            _ => false,
+        };
+        let others = self.curves.keys().filter(|lane| !is_joints(lane));
+        self.pinned.extend(others.copied());
         let keys: BTreeSet<KeyId> = dots.iter().map(|dot| dot.key()).collect();
         self.dots = dots;
         session.author(|authored| authored.select(keys));
