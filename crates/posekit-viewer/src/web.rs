@@ -108,6 +108,39 @@ fn open_dialog(outbox: Outbox) -> Option<()> {
     Some(())
 }
 
+thread_local! {
+    /// What the browser calls before the page is left, once it was wanted.
+    static LEAVING: std::cell::OnceCell<js_sys::Function> = const { std::cell::OnceCell::new() };
+    static IS_ASKED: std::cell::Cell<bool> = const { std::cell::Cell::new(false) };
+}
+
+/// Lets the browser ask before the page is left, or no longer: something is in no file.
+pub(crate) fn ask_before_leaving(asks: bool) {
+    let Some(window) = web_sys::window() else {
+        return;
+    };
+    if IS_ASKED.replace(asks) == asks {
+        return;
+    }
+    if !asks {
+        window.set_onbeforeunload(None);
+        return;
+    }
+    LEAVING.with(|leaving| {
+        let handler = leaving.get_or_init(|| {
+            // Browsers ask when the event is given a value; what it says is not shown.
+            let set = |event: JsValue| {
+                let given = JsValue::from_str("not saved");
+                drop(js_sys::Reflect::set(&event, &"returnValue".into(), &given));
+            };
+            Closure::<dyn FnMut(JsValue)>::new(set)
+                .into_js_value()
+                .unchecked_into()
+        });
+        window.set_onbeforeunload(Some(handler));
+    });
+}
+
 /// Gives a file to the browser's downloads.
 pub fn hand_over(outbox: &Outbox, parcel: &Parcel) {
     let event = match download(parcel) {

@@ -13,9 +13,11 @@ pub mod library;
 pub mod notices;
 pub mod pose_library;
 pub mod row;
+pub mod scene;
 pub mod timeline;
 pub mod top_bar;
 pub mod transport;
+pub mod unsaved;
 pub mod view;
 
 use std::path::PathBuf;

@@ -267,14 +267,17 @@ fn counted(count: usize) -> String {
 /// Shows the timeline in all the room that is left.
 pub fn show(ui: &mut Ui, session: &mut Session, timeline: &mut Timeline, asked: &mut Asked) {
     timeline.rect = Some(ui.max_rect());
-    // What is in it takes whatever room there is; the panel keeps the height that it was given.
-    ui.set_min_size(ui.available_size());
     if session.authored().is_none() {
-        begin::show(ui, session, &mut timeline.begin, asked);
+        egui::ScrollArea::vertical()
+            .auto_shrink([false, false])
+            .show(ui, |ui| {
+                begin::show(ui, session, &mut timeline.begin, asked)
+            });
         return;
     }
     bar::show(ui, session, timeline, asked);
     let rect = ui.available_rect_before_wrap();
+    ui.advance_cursor_after_rect(rect);
     timeline.pointer = ui
         .input(|i| i.pointer.hover_pos())
         .filter(|at| rect.contains(*at))
@@ -283,7 +286,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, timeline: &mut Timeline, asked: 
         Tab::DopeSheet => show_dope(ui, rect, session, timeline),
         Tab::Graph => {
             let (panel, time) = (&mut timeline.graph, &mut timeline.time);
-            graph::show(ui, session, panel, time, asked);
+            graph::show(ui, rect, session, panel, time, asked);
         }
     }
     show_menu(ui, session, timeline);

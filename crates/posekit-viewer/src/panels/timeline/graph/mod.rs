@@ -166,9 +166,10 @@ impl GraphPanel {
     }
 }
 
-/// Shows the graph editor of the active clip's scene in all of the room that there is.
+/// Shows the graph editor of the active clip's scene in a rectangle.
 pub fn show(
     ui: &mut Ui,
+    whole: Rect,
     session: &mut Session,
     panel: &mut GraphPanel,
     time: &mut TimeView,
@@ -176,8 +177,6 @@ pub fn show(
 ) {
     panel.graph.update(session);
     panel.fit_new();
-    let whole = ui.available_rect_before_wrap();
-    ui.advance_cursor_after_rect(whole);
     let list = Rect::from_min_max(whole.min, pos2(whole.left() + LIST_WIDTH, whole.bottom()));
     let has_fields = whole.width() >= FIELDS_LEAST;
     let right = if has_fields {
