@@ -10,6 +10,7 @@ pub mod csv;
 pub mod json;
 pub mod npz;
 mod number_text;
+pub mod poses;
 pub mod report;
 pub mod scene;
 pub mod urdf;

@@ -5,6 +5,7 @@ use glam::Vec3;
 use crate::color::Color;
 use crate::mesh::MATERIAL_COUNT;
 use crate::scene::{Background, Lighting};
+use crate::stage::GhostSide;
 
 /// The colours of everything but the characters.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -110,6 +111,13 @@ const CHARACTERS: [[u32; 4]; 6] = [
     [0xE5_8F_9B, 0x57_2B_36, 0xEE_AD_B5, 0xD4_78_86],
 ];
 
+/// What ghosts of keys before and after the time shown are tinted with: apart from each other, and from
+/// the blue and orange of left and right.
+const GHOST_TINTS: [u32; 2] = [0x2F_9E_6B, 0xB0_4F_C4];
+
+/// How much of the tint a ghost of a key has.
+const GHOST_TINT: f32 = 0.62;
+
 /// How many characters get colours of their own before they repeat.
 pub const CHARACTER_COLOR_COUNT: usize = CHARACTERS.len();
 
@@ -135,6 +143,16 @@ impl CharacterColors {
             left: self.left.mix(other, amount),
             right: self.right.mix(other, amount),
         }
+    }
+
+    /// The colours of the ghost of a key on one side of the time shown.
+    #[must_use]
+    pub(crate) fn of_key_ghost(self, side: GhostSide) -> Self {
+        let tint = match side {
+            GhostSide::Before => GHOST_TINTS[0],
+            GhostSide::After => GHOST_TINTS[1],
+        };
+        self.mixed(Color::from_hex(tint), GHOST_TINT)
     }
 
     /// One colour for each material of a mesh.

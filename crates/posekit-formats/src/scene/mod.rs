@@ -21,7 +21,8 @@
 //! The file is TOML 1.0 and memory is in proportion to its length.
 
 mod document;
-mod read;
+mod files;
+pub(crate) mod read;
 mod shot;
 mod write;
 
@@ -29,8 +30,10 @@ pub use document::{
     Camera, EulerNotation, InlineJoint, JointTrack, JointValues, Light, MotionLayer, Prop, Scene,
     SceneError, SkeletonSource,
 };
+pub use files::{AUTHORED_WALK_NAME, MotionFileError, SAMPLE_PREFIX, motion_of};
 pub use read::{SceneProblem, SceneProblemKind, SceneReadError, read};
 pub use shot::{Shot, ShotError};
+pub(crate) use write::quoted;
 pub use write::write;
 
 /// What the file says of itself in `format`.

@@ -321,7 +321,7 @@ pub(super) fn interpolation_name(way: Interpolation) -> &'static str {
 }
 
 /// A basic string of TOML.
-fn quoted(text: &str) -> String {
+pub(crate) fn quoted(text: &str) -> String {
     let mut out = String::with_capacity(text.len() + 2);
     out.push('"');
     for c in text.chars() {

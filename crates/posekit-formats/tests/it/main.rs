@@ -19,6 +19,7 @@ mod check_recall;
 mod guide_pages;
 mod ik_course;
 mod ik_course_jacobian;
+mod poses;
 mod robot_arms;
 mod scene;
 mod urdf_damage;

@@ -12,7 +12,7 @@ use crate::character::{Anatomy, Proportions, axes_mesh, body_mesh, bone_mesh, oc
 use crate::mesh::Mesh;
 use crate::theme::CharacterColors;
 
-use super::options::SkeletonStyle;
+use super::options::{KeyGhost, SkeletonStyle};
 
 /// How many poses of a motion are looked at to learn the room it takes.
 const SAMPLES: usize = 160;
@@ -44,6 +44,7 @@ pub struct Actor {
     facing_yaw_rad: f32,
     samples: Arc<[Sample]>,
     held: Option<Arc<GlobalPose>>,
+    key_ghosts: Vec<KeyGhost>,
 }
 
 impl Actor {
@@ -94,6 +95,7 @@ impl Actor {
             facing_yaw_rad,
             samples,
             held: None,
+            key_ghosts: Vec::new(),
         }
     }
 
@@ -130,6 +132,17 @@ impl Actor {
             );
         }
         self.held = pose;
+    }
+
+    /// Shows poses of its motion beside the figure, in place of those before.
+    pub fn set_key_ghosts(&mut self, ghosts: Vec<KeyGhost>) {
+        self.key_ghosts = ghosts;
+    }
+
+    /// The poses of its motion that are shown beside the figure.
+    #[must_use]
+    pub fn key_ghosts(&self) -> &[KeyGhost] {
+        &self.key_ghosts
     }
 
     /// The world pose that the figure shows at a time: the one it is held in, or its motion's.

@@ -17,8 +17,8 @@ use crate::scene::{Background, Scene};
 
 pub use actor::Actor;
 pub use options::{
-    Arrangement, AxesShown, CameraChoice, Follow, Ghosts, Labels, SkeletonStyle, StageOptions,
-    Trails,
+    Arrangement, AxesShown, CameraChoice, Follow, GhostSide, Ghosts, KeyGhost, Labels,
+    SkeletonStyle, StageOptions, Trails,
 };
 pub use room::Room;
 

@@ -91,6 +91,26 @@ pub struct Ghosts {
     pub after: usize,
 }
 
+/// A pose of an actor's motion that stands beside the figure, shown faintly: that of a neighbouring key.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KeyGhost {
+    /// Its time in the motion, seconds.
+    pub time_secs: f64,
+    /// On which side of the time shown it is.
+    pub side: GhostSide,
+    /// How far off it is among those of its side: 0 for the nearest, below 1.
+    pub distance: f32,
+}
+
+/// On which side of the time shown a ghost is. Each has a colour of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum GhostSide {
+    /// It is over.
+    Before,
+    /// It is to come.
+    After,
+}
+
 /// Which joints carry their name.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub enum Labels {

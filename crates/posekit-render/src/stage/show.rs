@@ -53,6 +53,10 @@ pub(super) fn add_actor(
     if let Some(ghosts) = &options.ghosts {
         add_ghosts(scene, stage, actor, (&pose, place), time_secs, ghosts);
     }
+    for ghost in actor.key_ghosts() {
+        let look = (actor.colors().of_key_ghost(ghost.side), ghost.distance);
+        add_ghost(scene, stage, actor, (&pose, place), ghost.time_secs, look);
+    }
     if let Some(trails) = &options.trails {
         add_trails(scene, stage, actor, place, time_secs, trails);
     }
@@ -119,9 +123,6 @@ fn add_ghosts(
     time_secs: f64,
     ghosts: &Ghosts,
 ) {
-    let camera = scene.camera;
-    let nearness = |pose: &GlobalPose| toward_eye(&camera, middle(actor, pose) + place);
-    let own_nearness = nearness(pose);
     let motion = actor.motion();
     let step = motion.frame_time_secs() * ghosts.every_frames.max(1) as f64;
     let duration = motion.duration_secs();
@@ -131,7 +132,6 @@ fn add_ghosts(
     if !now.is_finite() {
         return;
     }
-    let paper = stage.options().theme.ground;
     let behind = (1..=ghosts.before).map(|k| (now.ceil() - k as f64, k, ghosts.before));
     let ahead = (1..=ghosts.after).map(|k| (now.floor() + k as f64, k, ghosts.after));
     for (index, rank, count) in behind.chain(ahead) {
@@ -139,21 +139,41 @@ fn add_ghosts(
         if time < 0.0 || time > duration || (time - time_secs).abs() < 0.25 * step {
             continue;
         }
-        let ghost = actor.pose(time);
-        let fade = 0.15 + 0.6 * (rank as f32 - 1.0) / count as f32;
-        // One that stands before the figure must not hide it: a thin veil, and the same samples
-        // for all of them, so that many are no thicker than one.
-        let is_before = nearness(&ghost) - own_nearness > 0.06 * actor.stature();
-        let (fade, opacity) = if is_before {
-            (0.5 * fade, 0.25)
-        } else {
-            (fade, 0.5)
-        };
-        let colors = actor.colors().mixed(paper, fade);
-        let mut joints = transforms(&ghost, place);
-        set_back(&mut joints, &camera, actor.stature());
-        add_body(scene, actor, &ghost, (joints, place), colors, opacity);
+        let distance = (rank as f32 - 1.0) / count as f32;
+        let look = (*actor.colors(), distance);
+        add_ghost(scene, stage, actor, (pose, place), time, look);
     }
+}
+
+/// A pose of the motion, faintly: the fainter the farther off it is, from 0 to 1.
+fn add_ghost(
+    scene: &mut Scene,
+    stage: &Stage,
+    actor: &Actor,
+    (pose, place): (&GlobalPose, Vec3),
+    time_secs: f64,
+    (colors, distance): (CharacterColors, f32),
+) {
+    let camera = scene.camera;
+    let nearness = |pose: &GlobalPose| toward_eye(&camera, middle(actor, pose) + place);
+    let paper = stage.options().theme.ground;
+    let ghost = actor.pose(time_secs);
+    if !ghost.positions.iter().all(|p| p.is_finite()) {
+        return;
+    }
+    let fade = 0.15 + 0.6 * distance;
+    // One that stands before the figure must not hide it: a thin veil, and the same samples
+    // for all of them, so that many are no thicker than one.
+    let is_before = nearness(&ghost) - nearness(pose) > 0.06 * actor.stature();
+    let (fade, opacity) = if is_before {
+        (0.5 * fade, 0.25)
+    } else {
+        (fade, 0.5)
+    };
+    let colors = colors.mixed(paper, fade);
+    let mut joints = transforms(&ghost, place);
+    set_back(&mut joints, &camera, actor.stature());
+    add_body(scene, actor, &ghost, (joints, place), colors, opacity);
 }
 
 /// The middle of the figure's joints.

@@ -7,7 +7,8 @@ use posekit::skeleton::JointId;
 use posekit_render::camera::View;
 use posekit_render::cpu;
 use posekit_render::stage::{
-    Actor, Arrangement, CameraChoice, Follow, Ghosts, SkeletonStyle, Stage, StageOptions,
+    Actor, Arrangement, CameraChoice, Follow, GhostSide, Ghosts, KeyGhost, SkeletonStyle, Stage,
+    StageOptions,
 };
 use posekit_render::theme::CharacterColors;
 
@@ -140,6 +141,42 @@ fn the_feet_stand_on_the_floor() {
         "{lowest} {}",
         stage.ground_height()
     );
+}
+
+/// Ghosts of keys stand at their times, on either side in a colour of its own.
+#[test]
+fn ghosts_of_keys_stand_at_their_times_in_two_colours() {
+    let skeleton = std::sync::Arc::new(person(1.0));
+    let root = JointId::new(0);
+    let mut motion = Motion::at_rest(skeleton, 21, 0.1, [root]);
+    for frame in 0..21 {
+        motion.set_translation(frame, root, Vec3::new(0.0, 0.95, 0.1 * frame as f32));
+    }
+    let options = StageOptions {
+        camera: CameraChoice::View(View::Left),
+        ..StageOptions::default()
+    };
+    let mut stage = stage_of(std::sync::Arc::new(motion), options);
+    let ghost = |time_secs: f64, side: GhostSide| KeyGhost {
+        time_secs,
+        side,
+        distance: 0.0,
+    };
+    let ghosts = vec![ghost(0.3, GhostSide::Before), ghost(1.7, GhostSide::After)];
+    stage.edit_actor(0, |actor| actor.set_key_ghosts(ghosts));
+    let scene = stage.scene(1.0, 1.5);
+    let (figure, ghosts) = scene.models.split_first().unwrap();
+    assert_eq!(ghosts.len(), 2);
+    let camera = scene.camera;
+    for (ghost, time) in ghosts.iter().zip([0.3, 1.7]) {
+        // Moved from the eye by a hair, which is not seen.
+        let there = Vec3::new(0.0, 0.95, time);
+        let [seen, expected] = [ghost.joints[0].translation, there]
+            .map(|point| camera.project(point, (800, 600)).unwrap().truncate());
+        assert!(seen.distance(expected) < 1.0, "{seen} {expected}");
+        assert_ne!(ghost.palette, figure.palette);
+    }
+    assert_ne!(ghosts[0].palette, ghosts[1].palette);
 }
 
 #[test]

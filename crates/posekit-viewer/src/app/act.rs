@@ -28,6 +28,9 @@ impl Viewer {
         if self.run_in_lab(ctx, command) {
             return;
         }
+        if self.run_in_animate(ctx, command) {
+            return;
+        }
         if command::apply(command, &mut self.session) {
             if command == Command::ToggleLook {
                 theme::choose(ctx, self.session.look());
@@ -54,7 +57,7 @@ impl Viewer {
         match request {
             Request::Activate(id) => self.session.activate(id),
             Request::SetShown(id, shown) => self.session.set_shown(id, shown),
-            Request::Close(id) => self.close(id),
+            Request::Close(id) => self.close_or_ask(id),
             Request::OpenPath(path, beside) => {
                 let input = Input::Path(path);
                 if beside {
@@ -77,6 +80,7 @@ impl Viewer {
                 }
             }
             Request::Reload(id) => self.reload(ctx, id),
+            Request::Author(start) => self.start_authoring(ctx, start),
         }
     }
 
@@ -102,7 +106,7 @@ impl Viewer {
         }
     }
 
-    fn ask_for_files(&self) {
+    pub(super) fn ask_for_files(&self) {
         #[cfg(not(target_arch = "wasm32"))]
         files::ask_for_files(self.loader.outbox());
         #[cfg(target_arch = "wasm32")]

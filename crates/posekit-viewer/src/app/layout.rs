@@ -3,7 +3,7 @@
 use egui::{CentralPanel, Color32, Frame, Margin, Panel, Rect, RichText, Ui, Vec2};
 
 use super::Viewer;
-use crate::command::{self, Command};
+use crate::command::{self, Command, Place};
 use crate::panels::inspector::Checking;
 use crate::panels::{Asked, curves, export, help, inspector, joints, library, notices, row};
 use crate::panels::{top_bar, transport, view};
@@ -19,19 +19,24 @@ const JOINTS_LEAST: f32 = 230.0;
 impl Viewer {
     /// Takes the keys that were pressed, unless somebody is typing.
     pub(super) fn take_keys(&mut self, ui: &mut Ui, asked: &mut Asked) {
-        let busy = self.help_open || !matches!(self.export, export::ExportWindow::Closed);
+        let busy = self.help_open
+            || self.is_asking()
+            || !matches!(self.export, export::ExportWindow::Closed);
         if ui.ctx().text_edit_focused() {
             return;
         }
         if busy {
             // Windows over the view have the keys; the list closes with the key that opened it.
-            let pressed = ui.input_mut(command::pressed);
+            let pressed = ui.input_mut(|i| command::pressed(i, Place::Anywhere));
             asked
                 .commands
                 .extend(pressed.into_iter().filter(|c| *c == Command::ToggleHelp));
             return;
         }
         if self.take_keys_in_lab(ui) {
+            return;
+        }
+        if self.take_keys_of_timeline(ui) || self.take_keys_of_poses(ui) {
             return;
         }
         if self.session.is_dragging() {
@@ -41,11 +46,11 @@ impl Viewer {
             }
             return;
         }
-        let copies = ui.input(|i| i.events.iter().any(|e| matches!(e, egui::Event::Copy)));
-        if copies {
-            asked.command(Command::CopyPicture);
-        }
-        asked.commands.extend(ui.input_mut(command::pressed));
+        self.take_clipboard_keys(ui, asked);
+        let place = self.place_of_keys(ui);
+        asked
+            .commands
+            .extend(ui.input_mut(|i| command::pressed(i, place)));
         if ui.input_mut(|i| i.consume_key(egui::Modifiers::NONE, egui::Key::Escape))
             && !self.session.stop_stepping()
         {
@@ -73,6 +78,7 @@ impl Viewer {
             .frame(panel.inner_margin(Margin::symmetric(8, 2)))
             .resizable(false)
             .show(ui, |ui| transport::show(ui, &mut self.session, asked));
+        self.show_timeline(ui, asked);
         if self.layout.curves {
             Panel::bottom("curves")
                 .frame(panel.inner_margin(Margin::symmetric(8, 6)))
@@ -114,6 +120,10 @@ impl Viewer {
     }
 
     fn show_left(&mut self, ui: &mut Ui, asked: &mut Asked) {
+        if self.show_clips_or_poses(ui) {
+            self.show_poses(ui);
+            return;
+        }
         Panel::bottom("joints")
             .frame(Frame::NONE)
             .resizable(true)
@@ -152,14 +162,16 @@ impl Viewer {
         let is_stage = self.session.mode() != Mode::Lab;
         if is_stage && self.session.clips().is_empty() && self.loader.jobs().is_empty() && !hovering
         {
-            let text = RichText::new("Drop a BVH file here, or open one with Ctrl+O").size(15.0);
-            let place = Rect::from_center_size(rect.center(), Vec2::new(330.0, 30.0));
+            let text = RichText::new("Drop a BVH file or a scene here, or open one with Ctrl+O")
+                .size(15.0);
+            let place = Rect::from_center_size(rect.center(), Vec2::new(400.0, 30.0));
             row::text_in(ui, place, text, palette.quiet);
         }
     }
 
     /// Shows the windows over everything.
     pub(super) fn show_windows(&mut self, ctx: &egui::Context) {
+        self.show_questions(ctx);
         if self.help_open {
             self.help_open = help::show(ctx);
         }

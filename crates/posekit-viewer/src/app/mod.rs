@@ -1,16 +1,18 @@
 //! The application: state, panels and work brought together.
 
 mod act;
+mod animate;
 mod events;
 mod lab;
 mod layout;
+mod poses;
+mod saving;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use eframe::egui_wgpu::RenderState;
 use egui::Ui;
-use posekit::sample::{WalkConfig, walk};
 use posekit_render::render::RendererChoice;
 
 use crate::load::{Input, JobId, Listing, Loader, Purpose};
@@ -20,9 +22,13 @@ use crate::panels::curves::CurvePanel;
 use crate::panels::export::ExportWindow;
 use crate::panels::joints::JointTree;
 use crate::panels::library::Preview;
+use crate::panels::pose_library::PosePanel;
+use crate::panels::timeline::Timeline;
+
 use crate::picture::painter::Painter;
 use crate::picture::thumbnail::thumbnail;
 use crate::picture::{Texture, to_color_image};
+use crate::state::animate::pose_library::PoseLibrary;
 use crate::state::arm::ArmLab;
 use crate::state::clip::Clip;
 use crate::state::library::Library;
@@ -30,6 +36,7 @@ use crate::state::notices::Notices;
 use crate::state::session::{ClipId, Session};
 use crate::state::settings::{Settings, WindowLayout};
 use crate::theme;
+use crate::work::autosave::Autosave;
 use crate::work::export::ExportOptions;
 
 /// Under this name the settings are kept.
@@ -50,6 +57,8 @@ pub struct ViewerOptions {
     pub renderer: RendererChoice,
     /// Clips that a server offers, to be listed.
     pub listing: Option<Listing>,
+    /// The folder in which scenes are kept that are not saved; with none, they are not.
+    pub kept_in: Option<PathBuf>,
 }
 
 /// The viewer.
@@ -69,6 +78,12 @@ pub struct Viewer {
     to_check: BTreeSet<ClipId>,
     tree: JointTree,
     curves: CurvePanel,
+    timeline: Timeline,
+    poses: PoseLibrary,
+    pose_panel: PosePanel,
+    /// Kept poses that could not be read.
+    unreadable_poses: Option<String>,
+    saving: saving::Saving,
     notices: Notices,
     layout: WindowLayout,
     help_open: bool,
@@ -96,6 +111,13 @@ impl Viewer {
         let loader = Loader::new(ctx);
         #[cfg(not(target_arch = "wasm32"))]
         let watch = crate::work::watch::Watch::new(loader.outbox().clone());
+        #[cfg(not(target_arch = "wasm32"))]
+        let autosave = match &options.kept_in {
+            Some(folder) => Autosave::in_folder(folder),
+            None => Autosave::none(),
+        };
+        #[cfg(target_arch = "wasm32")]
+        let autosave = Autosave::in_storage();
         let mut session = Session::new(settings.display.clone(), settings.look);
         session.transport.at_end = settings.at_end;
         let mut viewer = Self {
@@ -111,6 +133,11 @@ impl Viewer {
             to_check: BTreeSet::new(),
             tree: JointTree::default(),
             curves: CurvePanel::default(),
+            timeline: Timeline::default(),
+            poses: PoseLibrary::default(),
+            pose_panel: PosePanel::default(),
+            unreadable_poses: None,
+            saving: saving::Saving::new(autosave),
             notices: Notices::default(),
             layout: settings.layout,
             help_open: false,
@@ -134,7 +161,14 @@ impl Viewer {
 
     /// The viewer of an eframe window, with what it remembers.
     #[must_use]
-    pub fn of_window(context: &eframe::CreationContext<'_>, options: ViewerOptions) -> Self {
+    pub fn of_window(context: &eframe::CreationContext<'_>, mut options: ViewerOptions) -> Self {
+        #[cfg(not(target_arch = "wasm32"))]
+        {
+            let data = eframe::storage_dir("posekit");
+            options.kept_in = options.kept_in.or(data.map(|data| data.join("unsaved")));
+        }
+        #[cfg(target_arch = "wasm32")]
+        let _no_folder = &mut options;
         let kept = context
             .storage
             .and_then(|storage| eframe::get_value(storage, SETTINGS_KEY));
@@ -143,7 +177,11 @@ impl Viewer {
         #[cfg(target_arch = "wasm32")]
         let settings: Settings = kept.unwrap_or_else(crate::web::first_settings);
         let graphics = context.wgpu_render_state.as_ref();
-        Self::new(&context.egui_ctx, graphics, &settings, options)
+        let mut viewer = Self::new(&context.egui_ctx, graphics, &settings, options);
+        if let Some(storage) = context.storage {
+            viewer.take_kept_poses(storage);
+        }
+        viewer
     }
 
     fn start(&mut self, ctx: &egui::Context, options: ViewerOptions) {
@@ -169,8 +207,7 @@ impl Viewer {
     }
 
     fn open_sample(&mut self, ctx: &egui::Context) {
-        if let Ok(motion) = walk(&WalkConfig::default()) {
-            let clip = Clip::from_motion("Sample walk", motion);
+        if let Some(clip) = Clip::of_sample("Sample walk", "walk") {
             let picture = to_color_image(&thumbnail(&clip));
             let id = self.session.open(clip);
             self.opened(ctx, id, picture);
@@ -179,11 +216,15 @@ impl Viewer {
 
     /// Starts reading clips: the first that is read is opened, the others join it.
     pub fn open_inputs(&mut self, inputs: Vec<Input>) {
-        let group = self.next_group;
-        self.next_group += 1;
-        for input in inputs {
+        let group = self.new_group();
+        for input in crate::load::together(inputs) {
             self.loader.read(input, Purpose::Group(group));
         }
+    }
+
+    fn new_group(&mut self) -> u32 {
+        self.next_group += 1;
+        self.next_group - 1
     }
 
     /// The session, to look at.
@@ -195,6 +236,17 @@ impl Viewer {
     /// The session, to change.
     pub fn session_mut(&mut self) -> &mut Session {
         &mut self.session
+    }
+
+    /// The timeline, to look at.
+    #[must_use]
+    pub fn timeline(&self) -> &Timeline {
+        &self.timeline
+    }
+
+    /// The timeline, to change.
+    pub fn timeline_mut(&mut self) -> &mut Timeline {
+        &mut self.timeline
     }
 
     /// The arm lab, to look at.
@@ -249,6 +301,7 @@ impl Viewer {
         let ctx = ui.ctx().clone();
         self.take_events(&ctx);
         self.take_dropped(&ctx);
+        self.watch_closing(&ctx);
         self.tick(&ctx);
         self.session.follow_changes();
         let mut asked = Asked {
@@ -266,7 +319,11 @@ impl Viewer {
             // What it has done is seen in the next picture, whatever else happens.
             ctx.request_repaint();
         }
-        self.check_edited();
+        // What is dragged is checked when it is let go.
+        if !ctx.input(|i| i.pointer.any_down()) {
+            self.check_edited();
+        }
+        self.keep_scenes(&ctx);
         self.plan_repaint(&ctx);
     }
 
@@ -333,5 +390,6 @@ impl eframe::App for Viewer {
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
         eframe::set_value(storage, SETTINGS_KEY, &self.settings());
+        self.keep_poses(storage);
     }
 }

@@ -11,18 +11,23 @@ pub mod inspector;
 pub mod joints;
 pub mod library;
 pub mod notices;
+pub mod pose_library;
 pub mod row;
+pub mod scene;
+pub mod timeline;
 pub mod top_bar;
 pub mod transport;
+pub mod unsaved;
 pub mod view;
 
 use std::path::PathBuf;
 
 use crate::command::{Command, shortcut_of};
+use crate::state::animate::Start;
 use crate::state::session::ClipId;
 
 /// Something asked for that is about a certain clip or file.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Request {
     /// A clip becomes the active one.
     Activate(ClipId),
@@ -38,6 +43,8 @@ pub enum Request {
     ShowFinding(usize),
     /// A clip whose file has changed is read again.
     Reload(ClipId),
+    /// The active clip becomes an authored one.
+    Author(Start),
 }
 
 /// What panels ask for while they are shown.

@@ -100,7 +100,7 @@ pub fn segments(
 }
 
 /// One of several beside each other.
-pub(super) fn segment(ui: &mut Ui, name: &str, chosen: bool) -> Response {
+pub fn segment(ui: &mut Ui, name: &str, chosen: bool) -> Response {
     const HEIGHT: f32 = 22.0;
     let palette = Palette::in_ui(ui);
     let font = egui::TextStyle::Button.resolve(ui.style());

@@ -40,7 +40,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, sides: Sides, asked: &mut Asked)
             ui.label(RichText::new("posekit").strong().size(15.0));
             ui.add_space(2.0 * GAP);
         }
-        file_menu(ui, asked);
+        file_menu(ui, session, asked);
         view_menu(ui, session, asked);
         if session.mode() != Mode::Lab {
             style_choice(ui, session);
@@ -109,13 +109,17 @@ fn item(ui: &mut Ui, says: &str, command: Command, asked: &mut Asked) {
     }
 }
 
-fn file_menu(ui: &mut Ui, asked: &mut Asked) {
+fn file_menu(ui: &mut Ui, session: &Session, asked: &mut Asked) {
     menu(ui, "File", |ui| {
         item(ui, "Open files\u{2026}", Command::Open, asked);
         if cfg!(not(target_arch = "wasm32")) {
             item(ui, "Open a folder\u{2026}", Command::OpenFolder, asked);
         }
         ui.separator();
+        if session.authored().is_some() && session.mode() != Mode::Lab {
+            item(ui, "Save the scene", Command::SaveScene, asked);
+            item(ui, "Save the scene as\u{2026}", Command::SaveSceneAs, asked);
+        }
         item(
             ui,
             "Save the range as BVH\u{2026}",
@@ -229,14 +233,14 @@ fn figure_menu(ui: &mut Ui, session: &mut Session, asked: &mut Asked) {
         );
         check(ui, &mut display.axes, "Axes of joints", Command::ToggleAxes);
         ui.separator();
-        trails_and_ghosts(ui, &mut display);
+        trails_and_ghosts(ui, &mut display, session.mode());
         ui.separator();
         item(ui, "Rest pose", Command::ToggleRest, asked);
     });
     session.set_display(display);
 }
 
-fn trails_and_ghosts(ui: &mut Ui, display: &mut Display) {
+fn trails_and_ghosts(ui: &mut Ui, display: &mut Display, mode: Mode) {
     check(
         ui,
         &mut display.trails,
@@ -250,6 +254,14 @@ fn trails_and_ghosts(ui: &mut Ui, display: &mut Display) {
     });
     check(ui, &mut display.ghosts, "Ghosts", Command::ToggleGhosts);
     ui.add_enabled_ui(display.ghosts, |ui| {
+        if mode == Mode::Animate {
+            ui.checkbox(&mut display.ghosts_at_keys, "At keys")
+                .on_hover_text("Poses of the keys before and after, green and purple: of the selected joints, or of all");
+            if display.ghosts_at_keys {
+                ui.add(egui::Slider::new(&mut display.ghost_keys, 1..=8).text("keys each way"));
+                return;
+            }
+        }
         let slider = egui::Slider::new(&mut display.ghost_every_frames, 1..=120);
         ui.add(slider.logarithmic(true).text("frames apart"))
             .on_hover_text("Earlier and later poses, shown faintly");

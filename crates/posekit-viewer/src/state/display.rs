@@ -80,6 +80,10 @@ pub struct Display {
     pub ghosts: bool,
     /// Frames from one ghost to the next.
     pub ghost_every_frames: usize,
+    /// In the animation mode ghosts stand at the neighbouring keys instead.
+    pub ghosts_at_keys: bool,
+    /// At how many keys before and after the time shown.
+    pub ghost_keys: usize,
     /// Where several figures stand.
     pub compare: Compare,
     /// Whether the camera goes along.
@@ -96,6 +100,8 @@ impl Default for Display {
             trail_secs: 1.5,
             ghosts: false,
             ghost_every_frames: 15,
+            ghosts_at_keys: true,
+            ghost_keys: 2,
             compare: Compare::default(),
             follow: FollowMode::default(),
         }

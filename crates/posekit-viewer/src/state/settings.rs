@@ -31,6 +31,8 @@ pub struct WindowLayout {
     pub right: bool,
     /// The curves.
     pub curves: bool,
+    /// At the left the poses instead of the clips, where poses are edited.
+    pub poses: bool,
 }
 
 impl Default for WindowLayout {
@@ -39,6 +41,7 @@ impl Default for WindowLayout {
             left: true,
             right: true,
             curves: false,
+            poses: false,
         }
     }
 }

@@ -3,13 +3,16 @@
 #![allow(missing_docs, reason = "a test binary has no documentation of its own")]
 #![allow(clippy::print_stderr, reason = "a test that is skipped says so")]
 
+mod animate;
 mod arm_lab;
 mod clips;
 mod comparing;
 mod editing;
+mod graph;
 mod limbs;
 mod numbers;
 mod pictures;
+mod poses;
 mod reading;
 mod real_files;
 mod saving;

@@ -26,11 +26,12 @@ impl Extrapolation {
 
 /// A time brought between the first and the last key.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Place {
+pub struct Place {
     /// In seconds, from the first key's time to the last one's.
-    pub(super) time_secs: f64,
-    /// How many times the value there is moved by the way from the first to the last key.
-    pub(super) shifts: f64,
+    pub time_secs: f64,
+    /// How many times the value there is moved by the way from the first to the last key: whole, and 0
+    /// but for [`Extrapolation::CycleWithOffset`].
+    pub shifts: f64,
 }
 
 impl Place {

@@ -29,7 +29,7 @@ mod track;
 mod value;
 
 pub use animation::{Animation, BakeConfig};
-pub use extrapolation::Extrapolation;
+pub use extrapolation::{Extrapolation, Place};
 pub use key::{Interpolation, Keyframe, Tangents};
 pub use property::{KeyedCamera, KeyedLight, KeyedTransform, Property};
 pub use reduce::{

@@ -192,13 +192,18 @@ impl<V: KeyValue> Track<V> {
         self.times[self.times.len() - 1]
     }
 
-    /// The value at a time in seconds; NaN counts as the time of the first key.
-    pub fn sample(&self, time_secs: f64) -> V {
-        let place = Place::of(
+    /// Which time between its keys a time takes its value from.
+    pub fn place(&self, time_secs: f64) -> Place {
+        Place::of(
             time_secs,
             [self.start_secs(), self.end_secs()],
             [self.before, self.after],
-        );
+        )
+    }
+
+    /// The value at a time in seconds; NaN counts as the time of the first key.
+    pub fn sample(&self, time_secs: f64) -> V {
+        let place = self.place(time_secs);
         let value = self.within(place.time_secs);
         if place.shifts == 0.0 {
             return value;

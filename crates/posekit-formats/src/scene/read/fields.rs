@@ -10,17 +10,17 @@ use crate::report::quote;
 
 /// What is wrong so far.
 #[derive(Default)]
-pub(super) struct Problems {
+pub(crate) struct Problems {
     pub(super) list: Vec<Found>,
 }
 
 impl Problems {
-    pub(super) fn at(&mut self, node: &Node<'_>, kind: SceneProblemKind, message: String) {
+    pub(crate) fn at(&mut self, node: &Node<'_>, kind: SceneProblemKind, message: String) {
         self.push(kind, node.span.clone(), node.path.clone(), message);
     }
 
     /// Says that a value is not what its field holds.
-    pub(super) fn expected(&mut self, node: &Node<'_>, what: &str) {
+    pub(crate) fn expected(&mut self, node: &Node<'_>, what: &str) {
         let message = format!("expected {what}, found {}", node.shown());
         self.at(node, SceneProblemKind::WrongValue, message);
     }
@@ -37,7 +37,7 @@ impl Problems {
 
 /// A value, where it stands in the text and in the document.
 #[derive(Clone)]
-pub(super) struct Node<'a> {
+pub(crate) struct Node<'a> {
     value: &'a DeValue<'a>,
     span: Range<usize>,
     path: String,
@@ -52,14 +52,14 @@ impl<'a> Node<'a> {
         }
     }
 
-    pub(super) fn text(&self) -> Option<&'a str> {
+    pub(crate) fn text(&self) -> Option<&'a str> {
         match self.value {
             DeValue::String(text) => Some(text),
             _ => None,
         }
     }
 
-    pub(super) fn whole_number(&self) -> Option<i64> {
+    pub(crate) fn whole_number(&self) -> Option<i64> {
         match self.value {
             DeValue::Integer(number) => i64::from_str_radix(number.as_str(), number.radix()).ok(),
             _ => None,
@@ -71,7 +71,7 @@ impl<'a> Node<'a> {
         clippy::cast_precision_loss,
         reason = "a hexadecimal number over 2^53 is not exact, and no field needs one"
     )]
-    pub(super) fn number(&self) -> Option<f64> {
+    pub(crate) fn number(&self) -> Option<f64> {
         let number = match self.value {
             DeValue::Float(number) => number.as_str().parse().ok()?,
             DeValue::Integer(number) if number.radix() == 10 => number.as_str().parse().ok()?,
@@ -81,7 +81,7 @@ impl<'a> Node<'a> {
         Some(number).filter(|number: &f64| number.is_finite())
     }
 
-    pub(super) fn truth(&self) -> Option<bool> {
+    pub(crate) fn truth(&self) -> Option<bool> {
         match self.value {
             DeValue::Boolean(truth) => Some(*truth),
             _ => None,
@@ -89,7 +89,7 @@ impl<'a> Node<'a> {
     }
 
     /// The numbers of an array of exactly so many.
-    pub(super) fn numbers<const N: usize>(&self) -> Option<[f64; N]> {
+    pub(crate) fn numbers<const N: usize>(&self) -> Option<[f64; N]> {
         let items = self.items()?;
         if items.len() != N {
             return None;
@@ -101,7 +101,7 @@ impl<'a> Node<'a> {
         Some(numbers)
     }
 
-    pub(super) fn items(&self) -> Option<Vec<Self>> {
+    pub(crate) fn items(&self) -> Option<Vec<Self>> {
         let DeValue::Array(items) = self.value else {
             return None;
         };
@@ -110,7 +110,7 @@ impl<'a> Node<'a> {
         Some(nodes.collect())
     }
 
-    pub(super) fn fields(&self) -> Option<Fields<'a>> {
+    pub(crate) fn fields(&self) -> Option<Fields<'a>> {
         match self.value {
             DeValue::Table(table) => Some(Fields::new(table, self.span.clone(), self.path.clone())),
             _ => None,
@@ -118,7 +118,7 @@ impl<'a> Node<'a> {
     }
 
     /// The value as a message shows it.
-    pub(super) fn shown(&self) -> String {
+    pub(crate) fn shown(&self) -> String {
         match self.value {
             DeValue::String(text) => quote(format!("\"{text}\"").as_bytes()),
             DeValue::Integer(number) => quote(number.to_string().as_bytes()),
@@ -132,7 +132,7 @@ impl<'a> Node<'a> {
 }
 
 /// A table whose fields are taken one by one.
-pub(super) struct Fields<'a> {
+pub(crate) struct Fields<'a> {
     table: &'a DeTable<'a>,
     span: Range<usize>,
     path: String,
@@ -140,7 +140,7 @@ pub(super) struct Fields<'a> {
 }
 
 impl<'a> Fields<'a> {
-    pub(super) fn new(table: &'a DeTable<'a>, span: Range<usize>, path: String) -> Self {
+    pub(crate) fn new(table: &'a DeTable<'a>, span: Range<usize>, path: String) -> Self {
         Self {
             table,
             span,
@@ -150,7 +150,7 @@ impl<'a> Fields<'a> {
     }
 
     /// A field, if it is there.
-    pub(super) fn optional(&mut self, name: &'static str) -> Option<Node<'a>> {
+    pub(crate) fn optional(&mut self, name: &'static str) -> Option<Node<'a>> {
         self.known.push(name);
         let value = self.table.get(name)?;
         let path = if self.path.is_empty() {
@@ -162,7 +162,7 @@ impl<'a> Fields<'a> {
     }
 
     /// A field that must be there.
-    pub(super) fn required(
+    pub(crate) fn required(
         &mut self,
         name: &'static str,
         problems: &mut Problems,
@@ -179,7 +179,7 @@ impl<'a> Fields<'a> {
     }
 
     /// What a required field holds, or a problem.
-    pub(super) fn take<T>(
+    pub(crate) fn take<T>(
         &mut self,
         name: &'static str,
         what: &str,
@@ -195,7 +195,7 @@ impl<'a> Fields<'a> {
     }
 
     /// What an optional field holds, its default, or a problem and its default.
-    pub(super) fn take_or<T>(
+    pub(crate) fn take_or<T>(
         &mut self,
         name: &'static str,
         default: T,
@@ -213,7 +213,7 @@ impl<'a> Fields<'a> {
     }
 
     /// The tables of an optional list.
-    pub(super) fn tables(&mut self, name: &'static str, problems: &mut Problems) -> Vec<Self> {
+    pub(crate) fn tables(&mut self, name: &'static str, problems: &mut Problems) -> Vec<Self> {
         let Some(node) = self.optional(name) else {
             return Vec::new();
         };
@@ -232,12 +232,12 @@ impl<'a> Fields<'a> {
     }
 
     /// Says something about the table itself.
-    pub(super) fn problem(&self, problems: &mut Problems, kind: SceneProblemKind, message: String) {
+    pub(crate) fn problem(&self, problems: &mut Problems, kind: SceneProblemKind, message: String) {
         problems.push(kind, self.span.clone(), self.path.clone(), message);
     }
 
     /// Names the fields that no one asked for.
-    pub(super) fn finish(&self, problems: &mut Problems) {
+    pub(crate) fn finish(&self, problems: &mut Problems) {
         for (name, _) in self.table {
             let text: &str = name.get_ref();
             if !self.known.contains(&text) {

@@ -1,6 +1,6 @@
 //! A scene from text.
 
-mod fields;
+pub(crate) mod fields;
 mod parts;
 mod tracks;
 
@@ -91,6 +91,16 @@ impl std::error::Error for SceneReadError {}
 /// [`SceneReadError`] with every problem: text that is no TOML, a newer version, and fields that are
 /// missing, unknown, of another kind or inconsistent.
 pub fn read(bytes: &[u8]) -> Result<Scene, SceneReadError> {
+    read_as(bytes, FORMAT, VERSION, parts::scene)
+}
+
+/// Reads what a file of a format and a version up to `newest` holds.
+pub(crate) fn read_as<T>(
+    bytes: &[u8],
+    format: &str,
+    newest: u32,
+    parts: impl FnOnce(&mut Fields<'_>, &mut Problems) -> Option<T>,
+) -> Result<T, SceneReadError> {
     let text = match std::str::from_utf8(bytes) {
         Ok(text) => text,
         Err(error) => {
@@ -111,24 +121,28 @@ pub fn read(bytes: &[u8]) -> Result<Scene, SceneReadError> {
     })?;
     let mut problems = Problems::default();
     let mut fields = Fields::new(document.get_ref(), 0..0, String::new());
-    let scene = if is_readable(&mut fields, &mut problems) {
-        parts::scene(&mut fields, &mut problems)
+    let whole = if is_readable(&mut fields, (format, newest), &mut problems) {
+        parts(&mut fields, &mut problems)
     } else {
         None
     };
-    match scene {
-        Some(scene) if problems.list.is_empty() => Ok(scene),
+    match whole {
+        Some(whole) if problems.list.is_empty() => Ok(whole),
         _ => Err(located(text.as_bytes(), problems)),
     }
 }
 
-/// Whether the file is a scene of a version that is known.
-fn is_readable(fields: &mut Fields<'_>, problems: &mut Problems) -> bool {
+/// Whether the file is of a format, in a version that is known.
+fn is_readable(
+    fields: &mut Fields<'_>,
+    (expected, newest): (&str, u32),
+    problems: &mut Problems,
+) -> bool {
     let Some(format) = fields.required("format", problems) else {
         return false;
     };
-    if format.text() != Some(FORMAT) {
-        let message = format!("expected \"{FORMAT}\", found {}", format.shown());
+    if format.text() != Some(expected) {
+        let message = format!("expected \"{expected}\", found {}", format.shown());
         problems.at(&format, SceneProblemKind::NotAScene, message);
         return false;
     }
@@ -137,10 +151,10 @@ fn is_readable(fields: &mut Fields<'_>, problems: &mut Problems) -> bool {
     };
     match version.whole_number() {
         Some(1) => true,
-        Some(found) if found > i64::from(VERSION) => {
+        Some(found) if found > i64::from(newest) => {
             let message = format!(
                 "this file is of version {found} of the format; this program reads up to \
-                 {VERSION}: a newer posekit can open it"
+                 {newest}: a newer posekit can open it"
             );
             problems.at(&version, SceneProblemKind::NewerVersion, message);
             false

@@ -2,15 +2,18 @@
 
 use std::sync::Arc;
 
+use posekit::keyframe::edit::SAME_TIME_SECS;
 use posekit::skeleton::JointId;
 use posekit_render::stage::{
-    Actor, Arrangement, AxesShown, Ghosts, Labels, Stage, StageOptions, Trails,
+    Actor, Arrangement, AxesShown, GhostSide, Ghosts, KeyGhost, Labels, Stage, StageOptions, Trails,
 };
 use posekit_render::theme::{CharacterColors, Theme};
 
 use super::{OpenClip, Session};
+use crate::state::animate::Owner;
 use crate::state::clip::{Clip, rest_motion};
 use crate::state::display::{Display, Look, PoseShown};
+use crate::state::mode::Mode;
 
 /// How many ghosts there are before and after the figure.
 const GHOSTS_EACH_SIDE: usize = 3;
@@ -98,7 +101,7 @@ impl Session {
                 joints: self.trailed_joints(),
                 seconds: display.trail_secs,
             }),
-            ghosts: display.ghosts.then_some(Ghosts {
+            ghosts: (display.ghosts && !self.has_key_ghosts()).then_some(Ghosts {
                 every_frames: display.ghost_every_frames.max(1),
                 before: GHOSTS_EACH_SIDE,
                 after: GHOSTS_EACH_SIDE,
@@ -110,6 +113,78 @@ impl Session {
             },
             ..StageOptions::default()
         }
+    }
+
+    /// Whether ghosts stand at the keys around the time shown.
+    fn has_key_ghosts(&self) -> bool {
+        let display = &self.display;
+        display.ghosts
+            && display.ghosts_at_keys
+            && self.mode() == Mode::Animate
+            && self.authored().is_some()
+    }
+
+    /// Ghosts at the keys around the time shown follow it, the keys, and what is selected.
+    pub(super) fn follow_key_ghosts(&mut self) {
+        let is_keyed = self.has_key_ghosts();
+        let has_others = self.stage.options().ghosts.is_some();
+        if self.display.ghosts && is_keyed == has_others {
+            self.set_stage();
+        }
+        let wanted = if is_keyed {
+            self.key_ghosts()
+        } else {
+            Vec::new()
+        };
+        let Some(index) = self.active_actor() else {
+            return;
+        };
+        let now = self.stage.actors().get(index).map(Actor::key_ghosts);
+        if now != Some(&wanted[..]) {
+            self.stage
+                .edit_actor(index, |actor| actor.set_key_ghosts(wanted));
+            self.stage_version += 1;
+        }
+    }
+
+    /// The neighbouring keys of the selected joints, or where those have none of all.
+    fn key_ghosts(&self) -> Vec<KeyGhost> {
+        let Some(authored) = self.authored() else {
+            return Vec::new();
+        };
+        let times_of = |joints: &[JointId]| {
+            let lanes = joints.iter().copied().map(Owner::Joint);
+            let tracks = lanes
+                .flat_map(Owner::lanes)
+                .filter_map(|lane| authored.track(lane));
+            let times = tracks.flat_map(|track| track.times_secs().to_vec());
+            times.collect::<Vec<f64>>()
+        };
+        let mut times = times_of(&self.selection);
+        if times.is_empty() {
+            times = times_of(&authored.skeleton().joints().collect::<Vec<_>>());
+        }
+        times.sort_by(f64::total_cmp);
+        times.dedup_by(|a, b| (*a - *b).abs() <= SAME_TIME_SECS);
+        let [start, end] = authored.scene().range_secs;
+        times.retain(|time| *time >= start - SAME_TIME_SECS && *time <= end + SAME_TIME_SECS);
+        let now = self.scene_secs();
+        let count = self.display.ghost_keys.max(1);
+        let ghost = |side: GhostSide| {
+            move |(rank, time): (usize, &f64)| KeyGhost {
+                time_secs: time - start,
+                side,
+                distance: rank as f32 / count as f32,
+            }
+        };
+        let before = times
+            .iter()
+            .rev()
+            .filter(|time| **time < now - SAME_TIME_SECS);
+        let after = times.iter().filter(|time| **time > now + SAME_TIME_SECS);
+        let before = before.take(count).enumerate().map(ghost(GhostSide::Before));
+        let after = after.take(count).enumerate().map(ghost(GhostSide::After));
+        before.chain(after).collect()
     }
 
     /// The selected joints, or the ends of the limbs.
@@ -126,6 +201,14 @@ impl Session {
             };
             skeleton.joints().filter(is_last).take(8).collect()
         })
+    }
+}
+
+impl Session {
+    /// The figure of a clip anew, as of a motion of other joints.
+    pub(super) fn remake_actor(&mut self, index: usize) {
+        let open = &mut self.clips[index];
+        open.actor = actor_of(&open.clip, &self.display, open.color);
     }
 }
 

@@ -5,7 +5,7 @@
 //! [`SAME_TIME_SECS`] of each other are at one time: the one that is put there replaces the other.
 //!
 //! [`keys`](self) of one track: [`insert_key`], [`move_keys`], [`scale_keys`], [`delete_keys`],
-//! [`copy_keys`], [`paste_keys`]. Of a whole pose: [`key_pose`], [`breakdown_pose`], [`mirror_pose`],
+//! [`copy_keys`], [`paste_keys`], [`replace_keys`]. Of a whole pose: [`key_pose`], [`breakdown_pose`], [`mirror_pose`],
 //! [`mirror_animation`].
 
 mod mirror;
@@ -18,5 +18,5 @@ pub use pose_keys::{
 };
 pub use time::{
     EditError, PasteValues, SAME_TIME_SECS, copy_keys, delete_keys, insert_key, key_on_curve,
-    move_keys, paste_keys, scale_keys,
+    move_keys, paste_keys, replace_keys, scale_keys,
 };

@@ -95,6 +95,20 @@ pub fn scale_keys<V: KeyValue>(
     merged(track, kept, chosen)
 }
 
+/// The track with the selected keys taken out and others put in, in any order. One that lands on a key
+/// that stays replaces it: what an edit of many keys at once is made of.
+///
+/// # Errors
+/// [`EditError::Track`] when a key's numbers are no key's, or two of those put in are at one time.
+pub fn replace_keys<V: KeyValue>(
+    track: &Track<V>,
+    selected: &[usize],
+    put: Vec<Keyframe<V>>,
+) -> Result<Track<V>, EditError> {
+    let (_, kept) = divided(track, selected);
+    merged(track, kept, put)
+}
+
 /// The track without the selected keys; `None` when none is left.
 pub fn delete_keys<V: KeyValue>(track: &Track<V>, selected: &[usize]) -> Option<Track<V>> {
     let (_, kept) = divided(track, selected);
