@@ -1,12 +1,13 @@
 //! The clips that the program makes itself, by name.
 
+use std::sync::Arc;
+
 use posekit::motion::Motion;
 use posekit::rotation::EulerOrder;
 use posekit_formats::bvh::Bvh;
-use posekit_formats::scene::AUTHORED_WALK;
+use posekit_formats::scene::{self, AUTHORED_WALK};
 
 use crate::failure::Failure;
-use crate::scene_file;
 
 /// A clip of our own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,7 +41,7 @@ impl Sample {
             Self::Run => "run",
             Self::Wave => "wave",
             Self::Arm => "arm",
-            Self::KeyedWalk => "keyed-walk",
+            Self::KeyedWalk => scene::AUTHORED_WALK_NAME,
         }
     }
 
@@ -51,11 +52,11 @@ impl Sample {
 
     /// The clip's motion.
     pub(crate) fn motion(self) -> Result<Motion, Failure> {
-        if let Some(text) = self.scene() {
-            return scene_file::bake_text(text);
-        }
-        posekit::sample::by_name(self.name())
-            .ok_or_else(|| Failure::new(format!("there is no sample '{}'", self.name())))
+        let named = format!("{}{}", scene::SAMPLE_PREFIX, self.name());
+        let motion = scene::motion_of(&named, |_| Err("it is no file".to_owned()));
+        motion
+            .map(Arc::unwrap_or_clone)
+            .map_err(|error| Failure::new(error.to_string()))
     }
 
     /// The text of the scene file that the clip is authored in, if it is.

@@ -78,18 +78,18 @@ pub struct JointTrack {
     pub values: JointValues,
 }
 
-/// What of a joint is keyed.
+/// What of a joint is keyed. Tracks are shared, so that a history can keep every state of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub enum JointValues {
     /// Its rotation in the parent's space.
     Rotation {
         /// The keys.
-        track: Track<DQuat>,
+        track: Arc<Track<DQuat>>,
         /// How the file writes them, if not as quaternions.
         euler: Option<EulerNotation>,
     },
     /// Its translation in the parent's space, in place of the rest translation.
-    Translation(Track<DVec3>),
+    Translation(Arc<Track<DVec3>>),
 }
 
 /// How a track's orientations are written: as Euler angles.
@@ -200,10 +200,10 @@ impl Scene {
                     return Err(SceneError::EndSiteTurns { joint: name() });
                 }
                 JointValues::Rotation { track, .. } => {
-                    animation.with_rotation(id, Some(track.clone()))
+                    animation.with_rotation(id, Some(Arc::clone(track)))
                 }
                 JointValues::Translation(track) => {
-                    animation.with_translation(id, Some(track.clone()))
+                    animation.with_translation(id, Some(Arc::clone(track)))
                 }
             };
         }
@@ -225,7 +225,7 @@ impl Scene {
                 JointValues::Rotation { euler, .. } => {
                     let track = animation.rotation(joint);
                     let rotation = |track: &Arc<Track<DQuat>>| JointValues::Rotation {
-                        track: track.as_ref().clone(),
+                        track: Arc::clone(track),
                         euler,
                     };
                     (0, track.map(rotation))
@@ -257,7 +257,7 @@ impl Scene {
                 tracks.push(JointTrack {
                     joint: name(),
                     values: JointValues::Rotation {
-                        track: track.as_ref().clone(),
+                        track: Arc::clone(track),
                         euler: euler.clone(),
                     },
                 });
@@ -268,7 +268,7 @@ impl Scene {
 }
 
 fn translation(track: &Arc<Track<DVec3>>) -> JointValues {
-    JointValues::Translation(track.as_ref().clone())
+    JointValues::Translation(Arc::clone(track))
 }
 
 impl SkeletonSource {

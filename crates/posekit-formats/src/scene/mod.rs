@@ -21,6 +21,7 @@
 //! The file is TOML 1.0 and memory is in proportion to its length.
 
 mod document;
+mod files;
 mod read;
 mod shot;
 mod write;
@@ -29,6 +30,7 @@ pub use document::{
     Camera, EulerNotation, InlineJoint, JointTrack, JointValues, Light, MotionLayer, Prop, Scene,
     SceneError, SkeletonSource,
 };
+pub use files::{AUTHORED_WALK_NAME, MotionFileError, SAMPLE_PREFIX, motion_of};
 pub use read::{SceneProblem, SceneProblemKind, SceneReadError, read};
 pub use shot::{Shot, ShotError};
 pub use write::write;

@@ -28,6 +28,9 @@ impl Viewer {
         if self.run_in_lab(ctx, command) {
             return;
         }
+        if self.run_in_animate(ctx, command) {
+            return;
+        }
         if command::apply(command, &mut self.session) {
             if command == Command::ToggleLook {
                 theme::choose(ctx, self.session.look());
@@ -77,6 +80,7 @@ impl Viewer {
                 }
             }
             Request::Reload(id) => self.reload(ctx, id),
+            Request::Author(start) => self.start_authoring(ctx, start),
         }
     }
 

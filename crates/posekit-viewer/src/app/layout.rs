@@ -3,7 +3,7 @@
 use egui::{CentralPanel, Color32, Frame, Margin, Panel, Rect, RichText, Ui, Vec2};
 
 use super::Viewer;
-use crate::command::{self, Command};
+use crate::command::{self, Command, Place};
 use crate::panels::inspector::Checking;
 use crate::panels::{Asked, curves, export, help, inspector, joints, library, notices, row};
 use crate::panels::{top_bar, transport, view};
@@ -25,7 +25,7 @@ impl Viewer {
         }
         if busy {
             // Windows over the view have the keys; the list closes with the key that opened it.
-            let pressed = ui.input_mut(command::pressed);
+            let pressed = ui.input_mut(|i| command::pressed(i, Place::Anywhere));
             asked
                 .commands
                 .extend(pressed.into_iter().filter(|c| *c == Command::ToggleHelp));
@@ -41,11 +41,11 @@ impl Viewer {
             }
             return;
         }
-        let copies = ui.input(|i| i.events.iter().any(|e| matches!(e, egui::Event::Copy)));
-        if copies {
-            asked.command(Command::CopyPicture);
-        }
-        asked.commands.extend(ui.input_mut(command::pressed));
+        self.take_clipboard_keys(ui, asked);
+        let place = self.place_of_keys(ui);
+        asked
+            .commands
+            .extend(ui.input_mut(|i| command::pressed(i, place)));
         if ui.input_mut(|i| i.consume_key(egui::Modifiers::NONE, egui::Key::Escape))
             && !self.session.stop_stepping()
         {
@@ -73,6 +73,7 @@ impl Viewer {
             .frame(panel.inner_margin(Margin::symmetric(8, 2)))
             .resizable(false)
             .show(ui, |ui| transport::show(ui, &mut self.session, asked));
+        self.show_timeline(ui, asked);
         if self.layout.curves {
             Panel::bottom("curves")
                 .frame(panel.inner_margin(Margin::symmetric(8, 6)))

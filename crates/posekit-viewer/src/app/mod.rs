@@ -1,6 +1,7 @@
 //! The application: state, panels and work brought together.
 
 mod act;
+mod animate;
 mod events;
 mod lab;
 mod layout;
@@ -10,7 +11,6 @@ use std::path::PathBuf;
 
 use eframe::egui_wgpu::RenderState;
 use egui::Ui;
-use posekit::sample::{WalkConfig, walk};
 use posekit_render::render::RendererChoice;
 
 use crate::load::{Input, JobId, Listing, Loader, Purpose};
@@ -20,6 +20,7 @@ use crate::panels::curves::CurvePanel;
 use crate::panels::export::ExportWindow;
 use crate::panels::joints::JointTree;
 use crate::panels::library::Preview;
+use crate::panels::timeline::Timeline;
 use crate::picture::painter::Painter;
 use crate::picture::thumbnail::thumbnail;
 use crate::picture::{Texture, to_color_image};
@@ -69,6 +70,7 @@ pub struct Viewer {
     to_check: BTreeSet<ClipId>,
     tree: JointTree,
     curves: CurvePanel,
+    timeline: Timeline,
     notices: Notices,
     layout: WindowLayout,
     help_open: bool,
@@ -111,6 +113,7 @@ impl Viewer {
             to_check: BTreeSet::new(),
             tree: JointTree::default(),
             curves: CurvePanel::default(),
+            timeline: Timeline::default(),
             notices: Notices::default(),
             layout: settings.layout,
             help_open: false,
@@ -169,8 +172,7 @@ impl Viewer {
     }
 
     fn open_sample(&mut self, ctx: &egui::Context) {
-        if let Ok(motion) = walk(&WalkConfig::default()) {
-            let clip = Clip::from_motion("Sample walk", motion);
+        if let Some(clip) = Clip::of_sample("Sample walk", "walk") {
             let picture = to_color_image(&thumbnail(&clip));
             let id = self.session.open(clip);
             self.opened(ctx, id, picture);

@@ -6,8 +6,7 @@ use super::Command;
 use crate::gizmo::Tool;
 use crate::state::camera::ViewCamera;
 use crate::state::display::{FollowMode, Look, PoseShown};
-use crate::state::mode::Mode;
-use crate::state::session::Session;
+use crate::state::session::{Handles, KeyWhat, Session};
 use crate::state::transport::AtEnd;
 
 /// One step of turning the view with the keys, radians: fifteen degrees, as in Blender.
@@ -28,7 +27,7 @@ fn apply_to_edits(command: Command, session: &mut Session) -> bool {
     let mut tools = session.tools();
     match command {
         Command::Mode(mode) => session.set_mode(mode),
-        Command::Tool(tool) if session.mode() == Mode::Ik => {
+        Command::Tool(tool) if session.handles() == Handles::Targets => {
             tools.ik_tool = if tool.turns() {
                 Tool::MoveAndTurn
             } else {
@@ -45,12 +44,26 @@ fn apply_to_edits(command: Command, session: &mut Session) -> bool {
         },
         Command::StepSolverBack => session.step_solver(|stepper| stepper.step(-1)),
         Command::NextSpace => {
-            let space = tools.space_in(session.mode());
+            let space = tools.space_with(session.handles());
             *space = space.next();
         }
         Command::ToggleSnap => tools.snaps = !tools.snaps,
         Command::Undo => drop(session.undo()),
         Command::Redo => drop(session.redo()),
+        Command::InsertKeys => {
+            session.insert_keys(KeyWhat::Selected);
+        }
+        Command::KeyWholePose => {
+            session.insert_keys(KeyWhat::Whole);
+        }
+        Command::ToggleAutoKey | Command::ToggleUseIk => {
+            let mut settings = session.animate();
+            match command {
+                Command::ToggleAutoKey => settings.auto_key = !settings.auto_key,
+                _ => settings.uses_ik = !settings.uses_ik,
+            }
+            session.set_animate(settings);
+        }
         Command::KeepPose => session.keep_draft(),
         Command::ResetPose => session.reset_draft(),
         _ => return false,

@@ -13,7 +13,7 @@ const SHIFT: Modifiers = Modifiers::SHIFT;
 const CTRL: Modifiers = Modifiers::COMMAND;
 const ALT: Modifiers = Modifiers::ALT;
 
-const fn bind(
+pub(super) const fn bind(
     command: Command,
     modifiers: Modifiers,
     key: Key,
@@ -394,6 +394,13 @@ pub const BINDINGS: &[Binding] = &[
         Key::U,
         Group::Edit,
         "Mode: inverse kinematics",
+    ),
+    bind(
+        Command::Mode(Mode::Animate),
+        NONE,
+        Key::A,
+        Group::Edit,
+        "Mode: animate with keys",
     ),
     bind(
         Command::Mode(Mode::Lab),

@@ -3,12 +3,14 @@
 //! Keys are Blender's where it has one. egui does not tell the number pad from the number row, so
 //! both work, on laptops too.
 
+mod animating;
 mod apply;
 mod bindings;
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 use posekit_render::camera::View;
 
+pub use animating::{ANIMATE_BINDINGS, KeysCommand, TIMELINE_BINDINGS};
 pub use apply::{apply, apply_to_camera};
 pub use bindings::BINDINGS;
 
@@ -141,6 +143,20 @@ pub enum Command {
     StepSolver,
     /// One step back along the solver's way.
     StepSolverBack,
+    /// Keys of the pose shown, on the selected joints.
+    InsertKeys,
+    /// Keys of the pose shown, on all joints.
+    KeyWholePose,
+    /// Changed poses become keys at once, or not.
+    ToggleAutoKey,
+    /// The animation mode brings joints to targets, or turns them.
+    ToggleUseIk,
+    /// Something about the keys in the timeline.
+    Keys(KeysCommand),
+    /// The scene into its file.
+    SaveScene,
+    /// The scene into another file.
+    SaveSceneAs,
 }
 
 /// A group of keys in the list.
@@ -154,6 +170,10 @@ pub enum Group {
     Figure,
     /// Modes, and editing poses.
     Edit,
+    /// While motion is authored.
+    Animate,
+    /// While the pointer is over the timeline.
+    Timeline,
     /// Windows and files.
     Window,
 }
@@ -195,13 +215,39 @@ impl Binding {
 /// The first key of a command, as a tooltip shows it.
 #[must_use]
 pub fn shortcut_of(command: Command, mac: bool) -> Option<String> {
-    let binding = BINDINGS.iter().find(|binding| binding.command == command)?;
+    let all = [BINDINGS, ANIMATE_BINDINGS, TIMELINE_BINDINGS];
+    let mut bindings = all.into_iter().flatten();
+    let binding = bindings.find(|binding| binding.command == command)?;
     Some(binding.shortcut_text(mac))
+}
+
+/// Where keys are pressed: the same key may mean something else there.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Place {
+    /// Where it means what the list says first.
+    #[default]
+    Anywhere,
+    /// While motion is authored.
+    Animate,
+    /// While motion is authored, with the pointer over the timeline.
+    Timeline,
+}
+
+impl Place {
+    /// The keys that are looked for, in that order.
+    fn bindings(self) -> impl Iterator<Item = &'static Binding> {
+        let own: [&[Binding]; 2] = match self {
+            Self::Anywhere => [&[], &[]],
+            Self::Animate => [&[], ANIMATE_BINDINGS],
+            Self::Timeline => [TIMELINE_BINDINGS, ANIMATE_BINDINGS],
+        };
+        own.into_iter().flatten().chain(BINDINGS)
+    }
 }
 
 /// The commands whose keys were pressed just now, in the order in which they were.
 #[must_use]
-pub fn pressed(input: &mut egui::InputState) -> Vec<Command> {
+pub fn pressed(input: &mut egui::InputState, place: Place) -> Vec<Command> {
     let mut commands = Vec::new();
     input.events.retain(|event| {
         let egui::Event::Key {
@@ -214,7 +260,7 @@ pub fn pressed(input: &mut egui::InputState) -> Vec<Command> {
             return true;
         };
         // What was held when the key went down: by now it may be let go again.
-        let asked = BINDINGS.iter().find(|b| b.is_meant(*key, *modifiers));
+        let asked = place.bindings().find(|b| b.is_meant(*key, *modifiers));
         commands.extend(asked.map(|binding| binding.command));
         asked.is_none()
     });

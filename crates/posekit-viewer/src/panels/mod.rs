@@ -12,6 +12,7 @@ pub mod joints;
 pub mod library;
 pub mod notices;
 pub mod row;
+pub mod timeline;
 pub mod top_bar;
 pub mod transport;
 pub mod view;
@@ -19,10 +20,11 @@ pub mod view;
 use std::path::PathBuf;
 
 use crate::command::{Command, shortcut_of};
+use crate::state::animate::Start;
 use crate::state::session::ClipId;
 
 /// Something asked for that is about a certain clip or file.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Request {
     /// A clip becomes the active one.
     Activate(ClipId),
@@ -38,6 +40,8 @@ pub enum Request {
     ShowFinding(usize),
     /// A clip whose file has changed is read again.
     Reload(ClipId),
+    /// The active clip becomes an authored one.
+    Author(Start),
 }
 
 /// What panels ask for while they are shown.

@@ -19,8 +19,12 @@ pub enum Source {
     File(PathBuf),
     /// Bytes that came without a place: dropped on a page, or fetched.
     Bytes,
-    /// Made by posekit itself.
-    Sample,
+    /// Made by posekit itself, under the name that scenes have for it after `sample:`.
+    Sample(String),
+    /// Made in memory.
+    Made,
+    /// A scene, and where its file is, if it has one.
+    Scene(Option<PathBuf>),
 }
 
 /// One opened motion.
@@ -68,11 +72,29 @@ impl Clip {
         let document = Bvh::from_motion(&motion, EulerOrder::ZXY);
         Self::new(
             name.into(),
-            Source::Sample,
+            Source::Made,
             document,
             ImportReport::default(),
             motion,
         )
+    }
+
+    /// A clip of our own, by its name; `None` where there is no such sample.
+    #[must_use]
+    pub fn of_sample(name: impl Into<String>, sample: &str) -> Option<Self> {
+        let motion = posekit::sample::by_name(sample)?;
+        Some(Self {
+            source: Source::Sample(sample.to_owned()),
+            ..Self::from_motion(name, motion)
+        })
+    }
+
+    /// Gives it another motion, which a document follows from.
+    pub fn set_motion(&mut self, motion: Arc<Motion>) {
+        self.document = Arc::new(Bvh::from_motion(&motion, EulerOrder::ZXY));
+        self.global = Arc::new(motion.to_global());
+        self.motion = motion;
+        self.report = ImportReport::default();
     }
 
     fn new(

@@ -1,5 +1,6 @@
 //! The program's state, apart from any widget: testable without a window.
 
+pub mod animate;
 pub mod arm;
 pub mod camera;
 pub mod clip;

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::session::Handles;
 use crate::gizmo::Tool;
 
 /// A mode of the window.
@@ -14,13 +15,15 @@ pub enum Mode {
     Pose,
     /// Limbs are brought to targets.
     Ik,
+    /// Motion is authored with keys.
+    Animate,
     /// Robot arms on a bench of their own.
     Lab,
 }
 
 impl Mode {
     /// All modes, in the order in which they are offered.
-    pub const ALL: [Self; 4] = [Self::View, Self::Pose, Self::Ik, Self::Lab];
+    pub const ALL: [Self; 5] = [Self::View, Self::Pose, Self::Ik, Self::Animate, Self::Lab];
 
     /// The name shown.
     #[must_use]
@@ -29,6 +32,7 @@ impl Mode {
             Self::View => "View",
             Self::Pose => "Pose",
             Self::Ik => "IK",
+            Self::Animate => "Animate",
             Self::Lab => "Arm lab",
         }
     }
@@ -40,6 +44,7 @@ impl Mode {
             Self::View => "Look at the motion",
             Self::Pose => "Turn joints by hand",
             Self::Ik => "Drag hands and feet; the body follows",
+            Self::Animate => "Make motion with keys: poses, and curves between them",
             Self::Lab => "Robot arms: joints, tips, and the numbers behind them",
         }
     }
@@ -49,7 +54,7 @@ impl Mode {
     pub const fn hint(self) -> &'static str {
         match self {
             Self::View | Self::Lab => "",
-            Self::Pose => "Click a bone, drag its rings",
+            Self::Pose | Self::Animate => "Click a bone, drag its rings",
             Self::Ik => "Click a dot, drag its arrows",
         }
     }
@@ -57,7 +62,7 @@ impl Mode {
     /// Whether poses of clips are changed in it.
     #[must_use]
     pub const fn edits(self) -> bool {
-        matches!(self, Self::Pose | Self::Ik)
+        matches!(self, Self::Pose | Self::Ik | Self::Animate)
     }
 }
 
@@ -114,11 +119,11 @@ pub struct ToolSettings {
 }
 
 impl ToolSettings {
-    /// How the gizmo's axes lie in a mode.
-    pub fn space_in(&mut self, mode: Mode) -> &mut Space {
-        match mode {
-            Mode::Ik => &mut self.ik_space,
-            Mode::View | Mode::Pose | Mode::Lab => &mut self.space,
+    /// How the gizmo's axes lie on what the pointer takes.
+    pub fn space_with(&mut self, handles: Handles) -> &mut Space {
+        match handles {
+            Handles::Targets => &mut self.ik_space,
+            Handles::None | Handles::Joints => &mut self.space,
         }
     }
 }

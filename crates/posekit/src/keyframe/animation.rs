@@ -108,9 +108,13 @@ impl Animation {
     /// # Panics
     /// If the joint is out of range.
     #[must_use]
-    pub fn with_rotation(mut self, joint: JointId, track: Option<Track<DQuat>>) -> Self {
+    pub fn with_rotation(
+        mut self,
+        joint: JointId,
+        track: Option<impl Into<Arc<Track<DQuat>>>>,
+    ) -> Self {
         let track = track.filter(|_| !self.skeleton.is_end_site(joint));
-        self.rotations[joint.index()] = track.map(Arc::new);
+        self.rotations[joint.index()] = track.map(Into::into);
         self
     }
 
@@ -119,8 +123,12 @@ impl Animation {
     /// # Panics
     /// If the joint is out of range.
     #[must_use]
-    pub fn with_translation(mut self, joint: JointId, track: Option<Track<DVec3>>) -> Self {
-        self.translations[joint.index()] = track.map(Arc::new);
+    pub fn with_translation(
+        mut self,
+        joint: JointId,
+        track: Option<impl Into<Arc<Track<DVec3>>>>,
+    ) -> Self {
+        self.translations[joint.index()] = track.map(Into::into);
         self
     }
 

@@ -1,5 +1,7 @@
 //! Tracks, keys and properties.
 
+use std::sync::Arc;
+
 use glam::{DQuat, DVec3};
 use posekit::keyframe::{
     Extrapolation, Interpolation, KeyValue, Keyframe, Property, Tangents, Track,
@@ -76,7 +78,7 @@ pub(super) fn joint_track(fields: &mut Fields<'_>, problems: &mut Problems) -> O
             track(fields, problems, &VECTOR, |key, problems| {
                 VECTOR.or_problem(key, problems)
             })
-            .map(JointValues::Translation)
+            .map(|track| JointValues::Translation(Arc::new(track)))
         }
     };
     fields.finish(problems);
@@ -95,6 +97,7 @@ fn rotation(
         let track = track(fields, problems, &QUATERNION, |key, problems| {
             QUATERNION.or_problem(key, problems)
         })?;
+        let track = Arc::new(track);
         return Some(JointValues::Rotation { track, euler: None });
     };
     let order: Option<EulerOrder> = order_node
@@ -115,6 +118,7 @@ fn rotation(
         Some(order.to_quat(angles.map(f64::to_radians)))
     })?;
     let euler = Some(EulerNotation { order, angles_deg });
+    let track = Arc::new(track);
     Some(JointValues::Rotation { track, euler })
 }
 

@@ -48,7 +48,9 @@ fn a_changed_key_changes_one_line() {
     };
     let mut keys = track.keys().to_vec();
     keys[1].value = EulerOrder::ZXY.to_quat([0.0, 0.5, 0.0]);
-    *track = Track::with_ends(keys, track.before(), track.after()).unwrap();
+    *track = Track::with_ends(keys, track.before(), track.after())
+        .unwrap()
+        .into();
     let [before, after] = [&scene, &later].map(|s| String::from_utf8(scene::write(s)).unwrap());
     let lines = before.lines().zip(after.lines());
     let changed: Vec<_> = lines.filter(|(a, b)| a != b).collect();
@@ -209,8 +211,8 @@ proptest! {
             file, start_secs, clip_secs: clipped.then_some([0.125, 2.0]),
         }).collect();
         scene.tracks = vec![
-            JointTrack { joint: joint.clone(), values: JointValues::Rotation { track: rotation, euler: None } },
-            JointTrack { joint, values: JointValues::Translation(translation) },
+            JointTrack { joint: joint.clone(), values: JointValues::Rotation { track: rotation.into(), euler: None } },
+            JointTrack { joint, values: JointValues::Translation(translation.into()) },
         ];
         scene.cameras = vec![Camera {
             name: "c".into(),

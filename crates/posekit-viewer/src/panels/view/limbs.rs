@@ -11,8 +11,7 @@ use posekit::ik::TraceUpdate;
 
 use crate::gizmo::{Sector, Viewport};
 use crate::picture::painter::Shot;
-use crate::state::mode::Mode;
-use crate::state::session::Session;
+use crate::state::session::{Handles, Session};
 use crate::theme::{CURVES, Palette};
 
 /// The colours of a, b, and the axis and angle.
@@ -28,7 +27,7 @@ const SEEN_GAP: f32 = 3.0;
 
 /// Paints it.
 pub(super) fn paint(ui: &Ui, rect: Rect, session: &Session, shot: &Shot) {
-    if session.mode() != Mode::Ik {
+    if session.handles() != Handles::Targets {
         return;
     }
     // As it is in the picture, which may be one behind.

@@ -14,9 +14,8 @@ use super::Asked;
 use crate::command::Command;
 use crate::picture::painter::{Painter, Shot};
 use crate::state::camera::ViewCamera;
-use crate::state::mode::Mode;
 use crate::state::pick::{pick, pick_effector};
-use crate::state::session::{ClipId, Session};
+use crate::state::session::{ClipId, Handles, Session};
 use crate::theme::Palette;
 
 /// A turn of the wheel by this many points makes things twice as near.
@@ -132,9 +131,9 @@ fn find_hovered(
         if skeleton.joint_count() != pose.joint_count() {
             return None;
         }
-        let pick = match session.mode() {
-            Mode::Ik => pick_effector,
-            Mode::View | Mode::Pose | Mode::Lab => pick,
+        let pick = match session.handles() {
+            Handles::Targets => pick_effector,
+            Handles::None | Handles::Joints => pick,
         };
         let (joint, distance) = pick(
             skeleton,

@@ -7,7 +7,7 @@ use crate::command::Command;
 use crate::gizmo::Tool;
 use crate::icons::{Icon, sized_icon};
 use crate::state::mode::{Mode, Space, TURN_STEP_DEG, move_step};
-use crate::state::session::Session;
+use crate::state::session::{Handles, Session};
 use crate::theme::{GAP, Palette};
 
 /// Under this width the strip leaves out what keys do as well.
@@ -52,8 +52,8 @@ fn tools(ui: &mut Ui, width: f32, session: &mut Session, asked: &mut Asked) {
 /// Arrows or rings; on a target, arrows alone or both.
 fn tool_choice(ui: &mut Ui, session: &Session, asked: &mut Asked) {
     let tools = session.tools();
-    let (chosen, options) = match session.mode() {
-        Mode::Ik => {
+    let (chosen, options) = match session.handles() {
+        Handles::Targets => {
             let chosen = match tools.ik_tool {
                 Tool::Move => Tool::Move,
                 Tool::Turn | Tool::MoveAndTurn => Tool::Turn,
@@ -68,7 +68,7 @@ fn tool_choice(ui: &mut Ui, session: &Session, asked: &mut Asked) {
             ];
             (chosen, options)
         }
-        Mode::View | Mode::Pose | Mode::Lab => {
+        Handles::None | Handles::Joints => {
             let options = [
                 (Tool::Move, "Move", "Arrows: move what the file lets move"),
                 (Tool::Turn, "Turn", "Rings: turn"),
@@ -84,11 +84,7 @@ fn tool_choice(ui: &mut Ui, session: &Session, asked: &mut Asked) {
 }
 
 fn undo_buttons(ui: &mut Ui, session: &Session, asked: &mut Asked) {
-    let names = session.edits().map(|edits| {
-        let name = |name: Option<&str>| name.map(str::to_owned);
-        (name(edits.undo_name()), name(edits.redo_name()))
-    });
-    let (undo, redo) = names.unwrap_or_default();
+    let (undo, redo) = session.step_names();
     for (icon, name, verb, command) in [
         (Icon::Undo, undo, "Undo", Command::Undo),
         (Icon::Redo, redo, "Redo", Command::Redo),
@@ -107,7 +103,7 @@ fn undo_buttons(ui: &mut Ui, session: &Session, asked: &mut Asked) {
 
 fn spaces(ui: &mut Ui, session: &mut Session) {
     let mut tools = session.tools();
-    let chosen = tools.space_in(session.mode());
+    let chosen = tools.space_with(session.handles());
     egui::ComboBox::from_id_salt("space")
         .selected_text(chosen.name())
         .width(72.0)
@@ -160,6 +156,12 @@ fn text(session: &Session) -> String {
     let clip = session.active_clip();
     if clip.is_some_and(|clip| clip.frame_count() == 0) {
         return "This clip has no frames to edit".to_owned();
+    }
+    if session.mode() == Mode::Animate && session.authored().is_none() {
+        return "Choose below how this clip is animated".to_owned();
+    }
+    if session.has_pending_pose() {
+        return "I: key this pose  \u{b7}  Alt+R: give it up".to_owned();
     }
     if !session.can_edit() {
         return "The rest pose is shown; the motion can be edited  (R)".to_owned();

@@ -11,11 +11,13 @@ use glam::{Quat, Vec3};
 use posekit::pose::{GlobalPose, LocalPose};
 use posekit::skeleton::JointId;
 
-use super::{ClipId, Session};
+use super::{ClipId, Handles, Session};
 use crate::gizmo::{Drag, Gizmo, Handle, Placement, Snap, Tool, Viewport};
+use crate::state::animate::Authored;
 use crate::state::clip::Clip;
 use crate::state::display::PoseShown;
 use crate::state::edit::{ClipEdits, Spread, freedom, reachable};
+use crate::state::ik::Goals;
 use crate::state::mode::{Mode, Space, TURN_STEP_DEG, ToolSettings, move_step};
 
 /// What undo or redo has changed, for people.
@@ -33,9 +35,9 @@ pub(super) struct Editing {
     edits: BTreeMap<ClipId, ClipEdits>,
     held: Option<Held>,
     /// The pose that the figure is held in while a handle is dragged.
-    live: Option<Arc<LocalPose>>,
+    pub(super) live: Option<Arc<LocalPose>>,
     /// Clips whose motion has changed since that was asked for.
-    changed: BTreeSet<ClipId>,
+    pub(super) changed: BTreeSet<ClipId>,
 }
 
 /// A handle that is held with the pointer.
@@ -94,6 +96,9 @@ impl Session {
     /// Whether a clip differs from what was opened.
     #[must_use]
     pub fn is_edited(&self, id: ClipId) -> bool {
+        if let Some(authored) = self.authored_of(id) {
+            return authored.is_dirty();
+        }
         let edits = self.editing.edits.get(&id);
         edits.is_some_and(ClipEdits::has_changed_motion)
     }
@@ -109,15 +114,16 @@ impl Session {
     #[must_use]
     pub fn can_edit(&self) -> bool {
         let frames = self.active_clip().map_or(0, |clip| clip.frame_count());
-        frames > 0 && self.pose_shown == PoseShown::Motion
+        let is_open = self.mode() != Mode::Animate || self.authored().is_some();
+        frames > 0 && is_open && self.pose_shown == PoseShown::Motion
     }
 
     /// The local pose of the active clip as it is shown: held by a handle, or the motion's.
     #[must_use]
     pub fn shown_local_pose(&self) -> Option<LocalPose> {
         let clip = self.active_clip()?;
-        Some(match &self.editing.live {
-            Some(live) => LocalPose::clone(live),
+        Some(match self.editing.live.as_ref().or(self.pending_pose()) {
+            Some(held) => LocalPose::clone(held),
             None => clip.local_pose(self.transport.time_secs()),
         })
     }
@@ -146,9 +152,8 @@ impl Session {
         let Some(clip) = self.active_clip().map(Arc::clone) else {
             return;
         };
-        let global = pose
-            .as_ref()
-            .map(|pose| Arc::new(pose.to_global(clip.skeleton())));
+        let shown = pose.as_ref().or(self.pending_pose());
+        let global = shown.map(|pose| Arc::new(pose.to_global(clip.skeleton())));
         self.editing.live = pose;
         if let Some(index) = self.active_actor() {
             self.stage.edit_actor(index, |actor| actor.hold(global));
@@ -183,6 +188,10 @@ impl Session {
 
     /// Puts a pose into the active clip at the frame shown, as one step.
     pub(super) fn put_pose(&mut self, name: &str, pose: LocalPose) {
+        if self.authored().is_some() {
+            self.put_authored_pose(name, pose, None);
+            return;
+        }
         let frame = self.transport.frame();
         self.edit_clip(|edits, clip| {
             let goals = edits.state().goals.clone();
@@ -190,9 +199,45 @@ impl Session {
         });
     }
 
+    /// As [`put_pose`](Self::put_pose), and asks something new of limbs in the same step.
+    pub(super) fn put_pose_and_goals(&mut self, name: &str, pose: LocalPose, goals: Goals) {
+        if self.authored().is_some() {
+            self.put_authored_pose(name, pose, Some(goals));
+            return;
+        }
+        let frame = goals.target.map(|target| target.frame);
+        let frame = frame.unwrap_or_else(|| self.transport.frame());
+        self.edit_clip(|edits, clip| edits.set_pose(clip, name, frame, pose, goals));
+    }
+
+    /// Asks something new of limbs, as one step.
+    pub(super) fn put_goals(&mut self, name: &str, goals: Goals) {
+        if self.authored().is_some() {
+            self.author(|authored| authored.set_goals(name, goals));
+        } else {
+            self.edit_clip(|edits, clip| edits.set_goals(clip, name, goals));
+        }
+    }
+
+    /// The names of what would be undone and redone in the active clip.
+    #[must_use]
+    pub fn step_names(&self) -> (Option<String>, Option<String>) {
+        let (undo, redo) = match (self.authored(), self.edits()) {
+            (Some(authored), _) => (authored.undo_name(), authored.redo_name()),
+            (None, Some(edits)) => (edits.undo_name(), edits.redo_name()),
+            (None, None) => (None, None),
+        };
+        (undo.map(str::to_owned), redo.map(str::to_owned))
+    }
+
     /// Undoes the last step of the active clip.
     pub fn undo(&mut self) -> Option<Changed> {
         self.stop_editing();
+        if self.authored().is_some() {
+            self.drop_pending();
+            let name = self.author(Authored::undo)??;
+            return Some(Changed { name });
+        }
         let (name, frame) = self.edit_clip(|edits, clip| edits.undo(clip))??;
         self.go_to_edited(frame);
         Some(Changed { name })
@@ -201,6 +246,11 @@ impl Session {
     /// Does the last step again that was undone.
     pub fn redo(&mut self) -> Option<Changed> {
         self.stop_editing();
+        if self.authored().is_some() {
+            self.drop_pending();
+            let name = self.author(Authored::redo)??;
+            return Some(Changed { name });
+        }
         let (name, frame) = self.edit_clip(|edits, clip| edits.redo(clip))??;
         self.go_to_edited(frame);
         Some(Changed { name })
@@ -218,12 +268,18 @@ impl Session {
 
     /// Keeps the draft for good.
     pub fn keep_draft(&mut self) {
+        if self.authored().is_some() {
+            return;
+        }
         self.edit_clip(ClipEdits::keep);
     }
 
     /// Takes the draft back.
     pub fn reset_draft(&mut self) {
         self.stop_editing();
+        if self.drop_pending() || self.authored().is_some() {
+            return;
+        }
         self.edit_clip(ClipEdits::reset);
     }
 
@@ -265,10 +321,10 @@ impl Session {
                 ..*held.drag.gizmo()
             });
         }
-        match self.editing.mode {
-            Mode::View | Mode::Lab => None,
-            Mode::Pose => self.joint_gizmo(),
-            Mode::Ik => self.target_gizmo(),
+        match self.handles() {
+            Handles::None => None,
+            Handles::Joints => self.joint_gizmo(),
+            Handles::Targets => self.target_gizmo(),
         }
     }
 
@@ -300,7 +356,7 @@ impl Session {
         let parent = self
             .active_clip()
             .and_then(|clip| clip.skeleton().parent(joint));
-        match *self.tools().space_in(self.mode()) {
+        match *self.tools().space_with(self.handles()) {
             Space::Local => of(joint),
             Space::Parent => parent.map_or(Quat::IDENTITY, of),
             Space::World => Quat::IDENTITY,
@@ -353,7 +409,7 @@ impl Session {
         let before = held.drag.placement();
         let placement = held.drag.update(pointer, viewport, snap);
         if placement != before {
-            let pose = if self.editing.mode == Mode::Ik {
+            let pose = if self.handles() == Handles::Targets {
                 let from = self.editing.live.clone();
                 self.follow(&from.unwrap_or_else(|| Arc::clone(&held.pose)), placement)
             } else {

@@ -7,13 +7,13 @@ use posekit::ik::{IkProblem, IkWorkspace, solve};
 use posekit::pose::{GlobalPose, LocalPose};
 use posekit::skeleton::JointId;
 
-use super::Session;
+use super::{Handles, Session};
 use crate::gizmo::{Gizmo, Placement, Tool};
 use crate::state::ik::{
     Goals, IkSettings, Pin, ProblemParts, Solved, Stepper, Target, chain_joints, feet_and_hands,
     problem, solver_name,
 };
-use crate::state::mode::{Mode, Space};
+use crate::state::mode::Space;
 
 /// All of a session that is about limbs.
 #[derive(Debug, Default)]
@@ -71,7 +71,8 @@ impl Session {
     pub fn effector(&self) -> Option<JointId> {
         let clip = self.active_clip()?;
         let joint = self.selected()?;
-        (self.mode() == Mode::Ik && joint.index() < clip.skeleton().joint_count()).then_some(joint)
+        (self.handles() == Handles::Targets && joint.index() < clip.skeleton().joint_count())
+            .then_some(joint)
     }
 
     /// The joints from the chain's start to the effector; empty where the whole figure moves.
@@ -88,6 +89,9 @@ impl Session {
     /// What is asked of limbs.
     #[must_use]
     pub fn goals(&self) -> Goals {
+        if let Some(authored) = self.authored() {
+            return authored.goals().clone();
+        }
         self.edits()
             .map_or_else(Goals::default, |edits| edits.state().goals.clone())
     }
@@ -218,12 +222,11 @@ impl Session {
         match pose {
             Some(pose) => {
                 let name = format!("Bring {name} to its target");
-                let frame = target.frame;
-                self.edit_clip(|edits, clip| edits.set_pose(clip, &name, frame, pose, goals));
+                self.put_pose_and_goals(&name, pose, goals);
             }
             None => {
                 let name = format!("Set the target of {name}");
-                self.edit_clip(|edits, clip| edits.set_goals(clip, &name, goals));
+                self.put_goals(&name, goals);
             }
         }
     }
@@ -250,7 +253,7 @@ impl Session {
             ..self.goals()
         };
         self.limbs.solved = None;
-        self.edit_clip(|edits, clip| edits.set_goals(clip, "Forget the target", goals));
+        self.put_goals("Forget the target", goals);
     }
 
     /// The joints that something is about: none where the figure has none such.
@@ -293,14 +296,14 @@ impl Session {
             }));
         }
         let name = if all_held { "Unpin" } else { "Pin" };
-        self.edit_clip(|edits, clip| edits.set_goals(clip, name, goals));
+        self.put_goals(name, goals);
     }
 
     /// Holds one joint no longer.
     pub fn unpin(&mut self, joint: JointId) {
         let mut goals = self.goals();
         goals.pins.retain(|pin| pin.joint != joint);
-        self.edit_clip(|edits, clip| edits.set_goals(clip, "Unpin", goals));
+        self.put_goals("Unpin", goals);
     }
 
     /// Changes whether how a pinned joint is turned is held, too.
@@ -313,7 +316,7 @@ impl Session {
             let now: Option<Quat> = pose.orientations.get(joint.index()).copied();
             pin.orientation = now.filter(|_| is_held);
         }
-        self.edit_clip(|edits, clip| edits.set_goals(clip, "Change a pin", goals));
+        self.put_goals("Change a pin", goals);
     }
 
     /// The solver's way, while it is gone step by step.
@@ -390,6 +393,7 @@ impl Session {
 
     /// Ends stepping when something else is looked at.
     pub fn follow_changes(&mut self) {
+        self.follow_time();
         let (frame, joint) = (self.transport.frame(), self.effector());
         let fits = |way: &Stepping| way.frame == frame && Some(way.joint) == joint;
         if self.limbs.stepping.as_ref().is_some_and(|way| !fits(way)) {

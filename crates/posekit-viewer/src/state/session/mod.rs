@@ -1,6 +1,7 @@
 //! The session: the clips that are open, what is selected, what time it is, and the stage that
 //! follows from it. It knows no widget and no window.
 
+mod authoring;
 mod editing;
 mod limbs;
 mod selection;
@@ -21,6 +22,8 @@ use crate::state::clip::{Clip, index_to_f64};
 use crate::state::display::{Display, Look, PoseShown};
 use crate::state::transport::Transport;
 
+use authoring::Authoring;
+pub use authoring::{AnimateSettings, Handles, KeyWhat};
 pub use editing::Changed;
 use editing::Editing;
 pub use limbs::Hold;
@@ -69,6 +72,7 @@ pub struct Session {
     aspect: f32,
     editing: Editing,
     limbs: Limbs,
+    authoring: Authoring,
 }
 
 impl Default for Session {
@@ -96,6 +100,7 @@ impl Session {
             aspect: 16.0 / 9.0,
             editing: Editing::default(),
             limbs: Limbs::default(),
+            authoring: Authoring::default(),
         };
         session.set_stage();
         session
@@ -153,6 +158,7 @@ impl Session {
         };
         let clip = Arc::new(clip);
         self.forget_edits(id);
+        self.forget_authored(id);
         let same_joints =
             clip.skeleton().joint_count() == self.clips[index].clip.skeleton().joint_count();
         self.clips[index].actor = actor_of(&clip, &self.display, self.clips[index].color);
@@ -182,6 +188,7 @@ impl Session {
         };
         self.clips.remove(index);
         self.forget_edits(id);
+        self.forget_authored(id);
         if self.active == Some(id) {
             self.active = None;
             match self.clips.get(index.saturating_sub(1)).map(|open| open.id) {

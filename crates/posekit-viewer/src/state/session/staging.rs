@@ -129,6 +129,14 @@ impl Session {
     }
 }
 
+impl Session {
+    /// The figure of a clip anew, as of a motion of other joints.
+    pub(super) fn remake_actor(&mut self, index: usize) {
+        let open = &mut self.clips[index];
+        open.actor = actor_of(&open.clip, &self.display, open.color);
+    }
+}
+
 impl OpenClip {
     /// The figure as it stands among the others.
     pub(super) fn on_stage(&self) -> &Actor {

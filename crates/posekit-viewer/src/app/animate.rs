@@ -1,0 +1,93 @@
+//! The animation mode in the window: the timeline, and what commands mean in it.
+
+use egui::{Event, Frame, Margin, Panel, Ui};
+
+use super::Viewer;
+use crate::command::{Command, KeysCommand, Place};
+use crate::panels::{Asked, timeline};
+use crate::state::animate::{self, Start};
+use crate::state::mode::Mode;
+use crate::state::notices::NoticeKind;
+
+impl Viewer {
+    /// Shows the timeline over the transport, while motion is authored.
+    pub(super) fn show_timeline(&mut self, ui: &mut Ui, asked: &mut Asked) {
+        if self.session.mode() != Mode::Animate {
+            self.timeline.hide();
+            return;
+        }
+        let most = (ui.available_height() - 180.0).max(140.0);
+        Panel::bottom("timeline")
+            .frame(
+                Frame::NONE
+                    .fill(ui.visuals().panel_fill)
+                    .inner_margin(Margin::symmetric(8, 6)),
+            )
+            .resizable(true)
+            .default_size(230.0)
+            .size_range(120.0..=most)
+            .show(ui, |ui| {
+                timeline::show(ui, &mut self.session, &mut self.timeline, asked);
+            });
+    }
+
+    /// Where keys are pressed.
+    pub(super) fn place_of_keys(&self, ui: &Ui) -> Place {
+        if self.session.mode() != Mode::Animate || self.session.authored().is_none() {
+            return Place::Anywhere;
+        }
+        let pointer = ui.input(|i| i.pointer.hover_pos());
+        let rect = self.timeline.rect();
+        let is_over = rect
+            .zip(pointer)
+            .is_some_and(|(rect, at)| rect.contains(at));
+        if is_over {
+            Place::Timeline
+        } else {
+            Place::Animate
+        }
+    }
+
+    /// The system says of copying and pasting that they were asked for, not which keys were pressed.
+    pub(super) fn take_clipboard_keys(&self, ui: &Ui, asked: &mut Asked) {
+        let is_over = self.place_of_keys(ui) == Place::Timeline;
+        let (copies, pastes, shift) = ui.input(|i| {
+            let copies = i.events.iter().any(|e| matches!(e, Event::Copy));
+            let pastes = i.events.iter().any(|e| matches!(e, Event::Paste(_)));
+            (copies, pastes, i.modifiers.shift)
+        });
+        match (copies, pastes, is_over) {
+            (true, _, true) => asked.command(Command::Keys(KeysCommand::Copy)),
+            (true, _, false) => asked.command(Command::CopyPicture),
+            (_, true, true) if shift => asked.command(Command::Keys(KeysCommand::PasteMirrored)),
+            (_, true, true) => asked.command(Command::Keys(KeysCommand::Paste)),
+            _ => {}
+        }
+    }
+
+    /// Does what a command means while motion is authored. False for one that means the same
+    /// everywhere.
+    pub(super) fn run_in_animate(&mut self, _ctx: &egui::Context, command: Command) -> bool {
+        match command {
+            Command::Keys(keys) => self.timeline.run(keys, &mut self.session),
+            _ => return false,
+        }
+        true
+    }
+
+    /// Makes the active clip an authored one.
+    pub(super) fn start_authoring(&mut self, ctx: &egui::Context, start: Start) {
+        let (Some(id), Some(clip)) = (self.session.active_id(), self.session.active_clip()) else {
+            return;
+        };
+        let time = self.session.transport.time_secs();
+        let is_edited = self.session.is_edited(id);
+        match animate::start(clip, start, time, is_edited) {
+            Ok(authored) => self.session.put_authored(id, authored),
+            Err(why) => {
+                self.notices
+                    .add(NoticeKind::Failure, why, ctx.input(|i| i.time));
+            }
+        }
+    }
+}
