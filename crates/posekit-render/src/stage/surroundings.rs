@@ -4,7 +4,7 @@
 //! room's; where there is one, the room's key and fill light are off, what is left of sky and walls is
 //! [`AMBIENT`] of it, and all else comes from the lights.
 
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use glam::{Affine3, DVec3, Mat3, Vec3};
 
@@ -30,6 +30,20 @@ const THINNEST: f32 = 1e-4;
 
 /// The colour of objects.
 const PROP_COLOR: u32 = 0xC9_C4_BC;
+
+/// One for all boxes: a back end draws what shares a mesh at once.
+static BOX: LazyLock<Arc<Mesh>> =
+    LazyLock::new(|| mesh_of(&Shape::cuboid(Vec3::splat(0.5), 0.0)));
+
+/// One for all balls.
+static SPHERE: LazyLock<Arc<Mesh>> =
+    LazyLock::new(|| mesh_of(&Shape::ball(Vec3::ZERO, 0.5, SPHERE_SEGMENTS)));
+
+fn mesh_of(shape: &Shape) -> Arc<Mesh> {
+    let mut mesh = Mesh::default();
+    mesh.add(shape, 0, MaterialId::Base);
+    Arc::new(mesh)
+}
 
 /// An object that stands around.
 #[derive(Clone, Debug)]
@@ -66,24 +80,12 @@ impl Prop {
     /// An object of a shape that goes by a transform.
     #[must_use]
     pub fn new(shape: &PropShape, transform: KeyedTransform) -> Self {
-        let mut mesh = Mesh::default();
-        let mut add = |shape: &Shape| mesh.add(shape, 0, MaterialId::Base);
-        match shape {
-            PropShape::Box => add(&Shape::cuboid(Vec3::splat(0.5), 0.0)),
-            PropShape::Sphere => add(&Shape::ball(Vec3::ZERO, 0.5, SPHERE_SEGMENTS)),
-            PropShape::Mesh(shape) => add(shape),
-        }
         Self {
-            mesh: Arc::new(mesh),
-            transform,
-        }
-    }
-
-    /// The same object under another transform; its mesh is shared.
-    #[must_use]
-    pub fn with_transform(&self, transform: KeyedTransform) -> Self {
-        Self {
-            mesh: Arc::clone(&self.mesh),
+            mesh: match shape {
+                PropShape::Box => Arc::clone(&BOX),
+                PropShape::Sphere => Arc::clone(&SPHERE),
+                PropShape::Mesh(shape) => mesh_of(shape),
+            },
             transform,
         }
     }

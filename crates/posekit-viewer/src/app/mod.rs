@@ -5,6 +5,7 @@ mod animate;
 mod events;
 mod lab;
 mod layout;
+mod shot;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;

@@ -12,6 +12,7 @@ pub mod joints;
 pub mod library;
 pub mod notices;
 pub mod row;
+pub mod things;
 pub mod timeline;
 pub mod top_bar;
 pub mod transport;

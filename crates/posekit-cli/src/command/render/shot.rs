@@ -110,7 +110,15 @@ pub(super) fn prepare(
     global: &Global,
 ) -> Result<Shot, Failure> {
     let name = input.name();
-    let (mut motion, mut warnings) = motion_of(input, global)?;
+    let scene = match &input.source {
+        Source::File(path) if scene_file::is_scene(path) => Some((path, scene_file::read(path)?)),
+        _ => None,
+    };
+    let (mut motion, mut warnings) = match &scene {
+        Some((path, scene)) => (scene_file::shot(path, scene)?.bake(None), Vec::new()),
+        None => motion_of(input, global)?,
+    };
+    let scene = scene.map(|(_, scene)| scene);
     let in_file = |failure: Failure| failure.in_file(&name);
     if motion.skeleton().joint_count() == 0 {
         return Err(in_file(Failure::new("has no joints to draw")));
@@ -131,10 +139,6 @@ pub(super) fn prepare(
     let longest = companions.iter().map(|motion| motion.duration_secs());
     let end_secs = longest.fold(motion.duration_secs(), f64::max);
     let times_secs = times(args, product, &motion, end_secs, frames_per_sec).map_err(in_file)?;
-    let scene = match &input.source {
-        Source::File(path) if scene_file::is_scene(path) => Some(scene_file::read(path)?),
-        _ => None,
-    };
     let mut options = options(args, &motion, companions).map_err(in_file)?;
     let style = options.style;
     let camera = match camera::choose(args.camera.as_deref(), scene.as_ref()).map_err(in_file)? {

@@ -6,6 +6,7 @@ mod editing;
 mod limbs;
 mod selection;
 mod staging;
+mod things;
 
 use std::sync::Arc;
 
@@ -29,6 +30,8 @@ use editing::Editing;
 pub use limbs::Hold;
 use limbs::Limbs;
 use staging::actor_of;
+use things::Things;
+pub use things::{KeyState, NewThing};
 
 /// A joint that is taken into the picture alone shows this much of the figure around it.
 const JOINT_FRAME_STATURES: f32 = 0.25;
@@ -72,6 +75,7 @@ pub struct Session {
     aspect: f32,
     editing: Editing,
     limbs: Limbs,
+    things: Things,
     authoring: Authoring,
 }
 
@@ -100,6 +104,7 @@ impl Session {
             aspect: 16.0 / 9.0,
             editing: Editing::default(),
             limbs: Limbs::default(),
+            things: Things::default(),
             authoring: Authoring::default(),
         };
         session.set_stage();
@@ -240,6 +245,7 @@ impl Session {
         if !same {
             self.selection.clear();
         }
+        self.forget_things();
         let was_playing = self.transport.is_playing();
         self.transport.load(frame_count, frame_time);
         if was_playing {
@@ -433,9 +439,11 @@ impl Session {
     /// The camera now.
     #[must_use]
     pub fn view_camera(&self) -> Camera {
-        self.camera
-            .orbit(&self.stage, self.stage_time_secs())
-            .camera()
+        self.framed_camera().unwrap_or_else(|| {
+            self.camera
+                .orbit(&self.stage, self.stage_time_secs())
+                .camera()
+        })
     }
 
     /// The scene now.
