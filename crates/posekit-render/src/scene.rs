@@ -88,8 +88,7 @@ pub struct Lighting {
     pub bounce: Color,
     /// How dark the key light's shadow is on the ground, 0..=1.
     pub shadow_strength: f32,
-    /// Where there are lamps: the light that the ground has without any of them, as a share of that
-    /// in which it shows its own colour.
+    /// Where there are lamps: the light that the ground has without any of them.
     pub ground_ambient: f32,
     /// Radius of the shadow's soft edge, world length.
     pub shadow_softness: f32,

@@ -141,11 +141,12 @@ pub(crate) fn lamp_shade(
     sum
 }
 
-/// Brighter than this many times its own colour the ground does not get.
-pub(crate) const GROUND_BRIGHTEST: f32 = 4.0;
+/// How soon the ground comes near to its own colour, which it has under endless light: it is the
+/// brightest thing in most pictures and would be a white hole where lights add up.
+pub(crate) const GROUND_EXPOSURE: f32 = 1.2;
 
-/// Factors of the ground's encoded red, green and blue under lamps. The root stands for the encoding:
-/// the ground is mixed in encoded values.
+/// Factors of the ground's encoded red, green and blue under lamps, 0..=1. The root stands for the
+/// encoding: the ground is mixed in encoded values.
 pub(crate) fn ground_light(
     point: Vec3,
     ambient: f32,
@@ -162,7 +163,7 @@ pub(crate) fn ground_light(
             *sum += color * diffuse;
         }
     }
-    sum.map(|light| light.clamp(0.0, GROUND_BRIGHTEST).sqrt())
+    sum.map(|light| (1.0 - libm::expf(-GROUND_EXPOSURE * light.max(0.0))).sqrt())
 }
 
 /// The share of the sky that a body sees at a height above the ground: less close to it, most of

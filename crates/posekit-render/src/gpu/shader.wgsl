@@ -59,7 +59,7 @@ const HIGHLIGHT: f32 = 0.10;
 const RIM: f32 = 0.16;
 const BODY_SOFTNESS: f32 = 0.4;
 const LAMP_CORE: f32 = 0.05;
-const GROUND_BRIGHTEST: f32 = 4.0;
+const GROUND_EXPOSURE: f32 = 1.2;
 const CONTACT_REACH: f32 = 4.0;
 const SHADOW_TINT: vec3<f32> = vec3<f32>(1.0, 0.96, 0.88);
 
@@ -296,7 +296,7 @@ fn ground_light(world: vec3<f32>, first_light: f32) -> vec3<f32> {
         let arriving = select(1.0, first_light, i == 0);
         sum += globals.lamps[2 * i + 1].rgb * (max(at.y, 0.0) * at.w * arriving);
     }
-    return sqrt(clamp(sum, vec3<f32>(0.0), vec3<f32>(GROUND_BRIGHTEST)));
+    return sqrt(1.0 - exp(-GROUND_EXPOSURE * max(sum, vec3<f32>(0.0))));
 }
 
 @fragment

@@ -32,8 +32,7 @@ const THINNEST: f32 = 1e-4;
 const PROP_COLOR: u32 = 0xC9_C4_BC;
 
 /// One for all boxes: a back end draws what shares a mesh at once.
-static BOX: LazyLock<Arc<Mesh>> =
-    LazyLock::new(|| mesh_of(&Shape::cuboid(Vec3::splat(0.5), 0.0)));
+static BOX: LazyLock<Arc<Mesh>> = LazyLock::new(|| mesh_of(&Shape::cuboid(Vec3::splat(0.5), 0.0)));
 
 /// One for all balls.
 static SPHERE: LazyLock<Arc<Mesh>> =

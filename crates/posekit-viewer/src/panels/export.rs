@@ -59,12 +59,7 @@ pub fn show(
     answer
 }
 
-fn choose(
-    ui: &mut Ui,
-    options: &mut ExportOptions,
-    frames: usize,
-    cameras: &[String],
-) -> Answer {
+fn choose(ui: &mut Ui, options: &mut ExportOptions, frames: usize, cameras: &[String]) -> Answer {
     let quiet = Palette::in_ui(ui).quiet;
     egui::Grid::new("export")
         .num_columns(2)

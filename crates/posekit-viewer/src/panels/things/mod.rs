@@ -32,7 +32,8 @@ pub fn show(ui: &mut Ui, session: &mut Session) {
         button.on_hover_text("A camera where the view is, a light, or a prop beside the figure");
     });
     if owners.is_empty() {
-        let says = "A shot is taken by its camera, lit by its lights, and has props standing around.";
+        let says =
+            "A shot is taken by its camera, lit by its lights, and has props standing around.";
         row::empty_note(ui, says);
     }
     ui.scope(|ui| {
@@ -56,7 +57,11 @@ fn thing_row(ui: &mut Ui, session: &mut Session, owner: Owner) {
     let (rect, response) = row::row(ui, THING_ROW, picked, &full);
     let palette = Palette::in_ui(ui);
     let mark = Rect::from_center_size(pos2(rect.left() + 14.0, rect.center().y), vec2(14.0, 14.0));
-    let color = if picked { palette.accent } else { palette.quiet };
+    let color = if picked {
+        palette.accent
+    } else {
+        palette.quiet
+    };
     icons::draw(ui.painter(), icon_of(session, owner), mark, color);
     let buttons = match owner {
         Owner::Camera(_) => 48.0,

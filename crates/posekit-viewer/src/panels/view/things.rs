@@ -51,7 +51,9 @@ pub(super) fn hovered(
     let looks_through = session.looks_through();
     let seen = |symbol: &&Symbol| !is_eye(symbol, looks_through);
     let near = symbols.iter().filter(seen).flat_map(|symbol| {
-        let has_target = session.picked().is_some_and(|it| it.owner == symbol.owner());
+        let has_target = session
+            .picked()
+            .is_some_and(|it| it.owner == symbol.owner());
         let points = symbol.points().into_iter();
         points.filter(move |(picked, _)| picked.part == Part::Body || has_target)
     });
@@ -183,7 +185,11 @@ impl Sketch<'_> {
             self.canvas.circle_filled(eye, 3.0, color);
         }
         if is_marked {
-            self.line(camera.eye, camera.target, Stroke::new(1.0, color.gamma_multiply(0.5)));
+            self.line(
+                camera.eye,
+                camera.target,
+                Stroke::new(1.0, color.gamma_multiply(0.5)),
+            );
             if let Some(target) = self.at(camera.target) {
                 self.canvas.circle_stroke(target, 5.0, stroke);
                 self.canvas.circle_filled(target, 1.6, color);
@@ -205,8 +211,12 @@ impl Sketch<'_> {
         }
         .to_srgb_bytes();
         let width = if is_marked { 2.0 } else { 1.4 };
-        self.canvas
-            .circle(at, BULB, Color32::from_rgb(r, g, b), Stroke::new(width, color));
+        self.canvas.circle(
+            at,
+            BULB,
+            Color32::from_rgb(r, g, b),
+            Stroke::new(width, color),
+        );
         for ray in 0..8u8 {
             let (sin, cos) = (f32::from(ray) * std::f32::consts::FRAC_PI_4).sin_cos();
             let way = vec2(cos, sin);

@@ -326,7 +326,8 @@ impl Session {
         let name = format!("Add a {}", what.name().to_lowercase());
         let added = self.author(|authored| {
             let mut owner = None;
-            let _ = authored.edit_scene(&name, None, |scene| owner = Some(things::add(scene, kind)));
+            let _ =
+                authored.edit_scene(&name, None, |scene| owner = Some(things::add(scene, kind)));
             owner
         });
         if let Some(owner) = added.flatten() {
@@ -464,9 +465,8 @@ impl Session {
     ) -> Option<bool> {
         let picked = self.picked()?;
         let taken = self.thing_gizmo().zip(self.placement_of(picked));
-        let drag = taken.and_then(|(gizmo, start)| {
-            Drag::begin(gizmo, handle, start, pointer, viewport)
-        });
+        let drag =
+            taken.and_then(|(gizmo, start)| Drag::begin(gizmo, handle, start, pointer, viewport));
         let Some(drag) = drag else {
             return Some(false);
         };
@@ -679,7 +679,10 @@ fn values_at(held: &Held, placement: Placement) -> Vec<(Lane, LaneValue)> {
             return Vec::new();
         };
         let orientation = placement.orientation.as_dquat().normalize();
-        return vec![(Lane::PropRotation(index), LaneValue::Orientation(orientation))];
+        return vec![(
+            Lane::PropRotation(index),
+            LaneValue::Orientation(orientation),
+        )];
     }
     let lane = held.picked.lane();
     let at = LaneValue::Vector(tidy(placement.position));

@@ -171,10 +171,7 @@ pub fn keyed(
         let there = track.and_then(|track| track.keys().iter().find(at));
         let key = match there {
             // A key that is there keeps its curve.
-            Some(there) => Keyframe {
-                value,
-                ..*there
-            },
+            Some(there) => Keyframe { value, ..*there },
             None => Keyframe::new(time_secs, value, interpolation),
         };
         let made: Result<Track<V>, EditError> = match track {
