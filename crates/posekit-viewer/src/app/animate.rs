@@ -1,6 +1,6 @@
 //! The animation mode in the window: the timeline, and what commands mean in it.
 
-use egui::{Event, Frame, Margin, Panel, Ui};
+use egui::{Event, Frame, Key, Margin, Modifiers, Panel, Ui};
 
 use super::Viewer;
 use crate::command::{Command, KeysCommand, Place};
@@ -29,6 +29,21 @@ impl Viewer {
             .show(ui, |ui| {
                 timeline::show(ui, &mut self.session, &mut self.timeline, asked);
             });
+    }
+
+    /// While keys follow the pointer there are two keys: the one that lets them be where they are, and the
+    /// one that gives that up. True when they were looked for.
+    pub(super) fn take_keys_of_timeline(&mut self, ui: &mut Ui) -> bool {
+        if !self.timeline.is_busy() {
+            return false;
+        }
+        let pressed = |ui: &mut Ui, key| ui.input_mut(|i| i.consume_key(Modifiers::NONE, key));
+        if pressed(ui, Key::Escape) {
+            self.timeline.cancel(&mut self.session);
+        } else if pressed(ui, Key::Enter) {
+            self.timeline.confirm();
+        }
+        true
     }
 
     /// Where keys are pressed.
@@ -67,9 +82,13 @@ impl Viewer {
 
     /// Does what a command means while motion is authored. False for one that means the same
     /// everywhere.
-    pub(super) fn run_in_animate(&mut self, _ctx: &egui::Context, command: Command) -> bool {
+    pub(super) fn run_in_animate(&mut self, ctx: &egui::Context, command: Command) -> bool {
         match command {
-            Command::Keys(keys) => self.timeline.run(keys, &mut self.session),
+            Command::Keys(keys) => {
+                if let Some(text) = self.timeline.run(keys, &mut self.session) {
+                    ctx.copy_text(text);
+                }
+            }
             _ => return false,
         }
         true

@@ -34,6 +34,9 @@ impl Viewer {
         if self.take_keys_in_lab(ui) {
             return;
         }
+        if self.take_keys_of_timeline(ui) {
+            return;
+        }
         if self.session.is_dragging() {
             // While a handle is held there is one key: the one that lets it go without effect.
             if ui.input_mut(|i| i.consume_key(egui::Modifiers::NONE, egui::Key::Escape)) {

@@ -1,16 +1,27 @@
 //! The bar over the keys: which view, how poses are keyed, and what is done to the selected keys.
 
-use egui::{Button, RichText, Ui};
+use egui::containers::menu::MenuButton;
+use egui::{Align, Button, Layout, RichText, Slider, Ui};
+use posekit::skeleton::JointId;
 
 use super::super::{Asked, row, tip};
-use super::{Tab, Timeline};
-use crate::command::Command;
+use super::menu::{Menu, name_of};
+use super::{Tab, Timeline, menu};
+use crate::command::{Command, KeysCommand};
+use crate::state::animate::Authored;
+use crate::state::animate::edit::pose::breakdown;
+use crate::state::edit::Gesture;
 use crate::state::session::Session;
 use crate::theme::{GAP, Palette};
 
-/// What the bar remembers.
+/// How far beyond its neighbours a pose can be slid, percent.
+const OVERSHOOT: std::ops::RangeInclusive<f64> = -50.0..=150.0;
+
+/// What the bar remembers: the slide that is going on.
 #[derive(Debug, Default)]
-pub(super) struct Bar {}
+pub(super) struct Bar {
+    slide: Option<(Gesture, f64)>,
+}
 
 /// Shows the bar.
 pub(super) fn show(ui: &mut Ui, session: &mut Session, timeline: &mut Timeline, asked: &mut Asked) {
@@ -23,6 +34,11 @@ pub(super) fn show(ui: &mut Ui, session: &mut Session, timeline: &mut Timeline, 
         }
         ui.add_space(2.0 * GAP);
         keying(ui, session, asked);
+        ui.add_space(2.0 * GAP);
+        slide(ui, session, &mut timeline.bar);
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            ways(ui, session, asked);
+        });
     });
     ui.add_space(GAP);
 }
@@ -32,24 +48,26 @@ fn keying(ui: &mut Ui, session: &Session, asked: &mut Asked) {
     let accent = Palette::in_ui(ui).accent;
     let name = RichText::new("Key");
     let name = if session.has_pending_pose() {
-        name.color(accent)
+        name.color(accent).strong()
     } else {
         name
     };
-    let says = "Key the selected joints, and those that were posed";
-    if ui
-        .add(Button::new(name))
-        .on_hover_text(tip(says, Command::InsertKeys))
-        .clicked()
-    {
-        asked.command(Command::InsertKeys);
-    }
-    if ui
-        .add(Button::new("Key all"))
-        .on_hover_text(tip("Key the whole pose", Command::KeyWholePose))
-        .clicked()
-    {
-        asked.command(Command::KeyWholePose);
+    for (name, says, command) in [
+        (
+            name,
+            "Key the selected joints, and those that were posed",
+            Command::InsertKeys,
+        ),
+        (
+            RichText::new("Key all"),
+            "Key the whole pose",
+            Command::KeyWholePose,
+        ),
+    ] {
+        let button = ui.add(Button::new(name));
+        if button.on_hover_text(tip(says, command)).clicked() {
+            asked.command(command);
+        }
     }
     for (name, says, on, command) in [
         (
@@ -59,7 +77,7 @@ fn keying(ui: &mut Ui, session: &Session, asked: &mut Asked) {
             Command::ToggleAutoKey,
         ),
         (
-            "IK",
+            "Use IK",
             "Drag hands and feet to targets; otherwise joints are turned by rings",
             settings.uses_ik,
             Command::ToggleUseIk,
@@ -70,4 +88,116 @@ fn keying(ui: &mut Ui, session: &Session, asked: &mut Asked) {
             asked.command(command);
         }
     }
+}
+
+/// The in-between: a pose so far along between its neighbouring keys. All of a drag is one step.
+fn slide(ui: &mut Ui, session: &mut Session, bar: &mut Bar) {
+    let mut percent = bar.slide.map_or(50.0, |(_, percent)| percent);
+    ui.label(RichText::new("In-between").color(Palette::in_ui(ui).quiet));
+    ui.spacing_mut().slider_width = 96.0;
+    let slider = Slider::new(&mut percent, OVERSHOOT)
+        .suffix(" %")
+        .fixed_decimals(0)
+        .clamping(egui::SliderClamping::Always);
+    let response = ui.add(slider).on_hover_text(
+        "Keys at the playhead, so far along between the keys before and after it: of the selected \
+         joints, or of all",
+    );
+    if response.changed() {
+        // A field that is typed in is a gesture of its own.
+        let gesture = match bar.slide {
+            Some((gesture, _)) => Some(gesture),
+            None => session.author(Authored::gesture),
+        };
+        if let Some(gesture) = gesture {
+            session.transport.pause();
+            put_between(session, gesture, percent / 100.0);
+            bar.slide = Some((gesture, percent));
+        }
+    }
+    if !response.dragged() && !response.has_focus() {
+        bar.slide = None;
+    }
+}
+
+fn put_between(session: &mut Session, gesture: Gesture, share: f64) {
+    let mut joints: Vec<JointId> = session.selection().to_vec();
+    let interpolation = session.animate().interpolation;
+    session.author(|authored| {
+        authored.give_up(gesture);
+        if joints.is_empty() {
+            joints = authored.skeleton().joints().collect();
+        }
+        let at = authored.snapped(authored.now_secs());
+        let edit = breakdown(authored, &joints, at, share, interpolation);
+        if let Some(edit) = edit.filter(|edit| !edit.is_empty()) {
+            authored.set_tracks(
+                "Key an in-between",
+                Some(gesture),
+                edit.changes,
+                edit.selection,
+            );
+        }
+    });
+}
+
+/// How keys go on, and what else is done to them.
+fn ways(ui: &mut Ui, session: &mut Session, asked: &mut Asked) {
+    let keys = |command| Command::Keys(command);
+    for (name, menu, says, command) in [
+        (
+            "Beyond".to_owned(),
+            Menu::Extrapolation,
+            "What happens before the first and after the last key",
+            KeysCommand::Extrapolation,
+        ),
+        (
+            format!("Curve: {}", name_of(session.animate().interpolation)),
+            Menu::Interpolation,
+            "How keys go on to the next one",
+            KeysCommand::Interpolation,
+        ),
+    ] {
+        let (response, _) = MenuButton::new(name).ui(ui, |ui| {
+            if menu::show(ui, menu, session) {
+                ui.close();
+            }
+        });
+        response.on_hover_text(tip(says, keys(command)));
+    }
+    let count = session
+        .authored()
+        .map_or(0, |authored| authored.selection().len());
+    let name = match count {
+        0 => "Keys".to_owned(),
+        count => super::counted(count),
+    };
+    let (response, _) = MenuButton::new(name).ui(ui, |ui| {
+        ui.set_width(210.0);
+        for (says, command, needs_some) in [
+            ("Copy", KeysCommand::Copy, true),
+            ("Paste at the playhead", KeysCommand::Paste, false),
+            ("Paste left for right", KeysCommand::PasteMirrored, false),
+            ("Mirror left and right", KeysCommand::Mirror, true),
+            ("Duplicate", KeysCommand::Duplicate, true),
+            ("Delete", KeysCommand::Delete, true),
+            ("Select all", KeysCommand::SelectAll, false),
+            ("All keys into view", KeysCommand::ViewAll, false),
+        ] {
+            let command = keys(command);
+            let shortcut = crate::command::shortcut_of(command, cfg!(target_os = "macos"));
+            let quiet = Palette::in_ui(ui).quiet;
+            let shortcut = RichText::new(shortcut.unwrap_or_default())
+                .small()
+                .color(quiet);
+            let button = Button::new(says)
+                .frame_when_inactive(false)
+                .shortcut_text(shortcut);
+            if ui.add_enabled(count > 0 || !needs_some, button).clicked() {
+                asked.command(command);
+                ui.close();
+            }
+        }
+    });
+    response.on_hover_text("What can be done to the selected keys");
 }

@@ -1,9 +1,12 @@
 //! Editing keys: functions that make new tracks of old ones, for [`Authored::set_tracks`].
 //!
-//! [`pose`]: keys of whole poses. [`keys`]: what a dope sheet does to selected keys.
+//! [`pose`]: keys of whole poses. [`keys`]: what a dope sheet does to selected keys. [`clipboard`]: keys
+//! copied, pasted, mirrored.
 //!
 //! [`Authored::set_tracks`]: super::Authored::set_tracks
 
+pub mod clipboard;
+pub mod keys;
 pub mod pose;
 
 use std::collections::BTreeSet;
