@@ -23,6 +23,9 @@ pub struct Scene {
     pub ground: Option<Ground>,
     /// Sun, fill and sky.
     pub lighting: Lighting,
+    /// Lights at places; [`MOST_LAMPS`] of them are drawn. Where there are any, the first one casts
+    /// the shadow instead of the key light, and the ground takes their light.
+    pub lamps: Vec<Lamp>,
     /// Bodies and bones.
     pub models: Vec<Model>,
     /// Lines of constant width on the screen.
@@ -85,11 +88,31 @@ pub struct Lighting {
     pub bounce: Color,
     /// How dark the key light's shadow is on the ground, 0..=1.
     pub shadow_strength: f32,
+    /// Where there are lamps: the light that the ground has without any of them.
+    pub ground_ambient: f32,
     /// Radius of the shadow's soft edge, world length.
     pub shadow_softness: f32,
     /// How dark the ground is right under a body part that touches it, 0..=1.
     pub contact_strength: f32,
 }
+
+/// A light at a place, which shines to all sides.
+///
+/// It lights a surface at distance d by `color` * cosine * (`full_at` / d)^2, where the cosine is that
+/// of the angle between the surface's normal and the way to the light: Lambert's law and the inverse
+/// square of the distance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lamp {
+    /// Where it is, in world space.
+    pub position: Vec3,
+    /// Its colour times its strength, linear light.
+    pub color: Color,
+    /// The distance at which it shines with its strength, world length. Must be positive.
+    pub full_at: f32,
+}
+
+/// More lamps than this are not drawn.
+pub const MOST_LAMPS: usize = 16;
 
 /// A posed mesh.
 #[derive(Clone, Debug)]
@@ -113,6 +136,14 @@ pub enum Shadow {
     Cast,
     /// It does neither: ghosts, axes.
     None,
+}
+
+impl Scene {
+    /// The lamps that are drawn.
+    #[must_use]
+    pub fn drawn_lamps(&self) -> &[Lamp] {
+        &self.lamps[..self.lamps.len().min(MOST_LAMPS)]
+    }
 }
 
 impl Model {

@@ -2,13 +2,14 @@
 //!
 //! The CPU back end calls these functions; the shader in `gpu/shader.wgsl` says the same in WGSL.
 //! Lit surfaces are shaded in linear light with a wrapped Lambert key light, an unshadowed fill
-//! light, a hemisphere of sky and bounce light, a broad highlight and a faint rim. The ground's
-//! pattern is mixed in encoded sRGB, where even steps look even.
+//! light, a hemisphere of sky and bounce light, a broad highlight and a faint rim. Lamps add plain
+//! Lambert light that falls with the square of the distance. The ground's pattern is mixed in encoded
+//! sRGB, where even steps look even.
 
 use glam::Vec3;
 
 use crate::color::Color;
-use crate::scene::Lighting;
+use crate::scene::{Lamp, Lighting};
 
 /// Taps of the shadow filter.
 pub(crate) const SHADOW_TAPS: usize = 32;
@@ -95,6 +96,74 @@ pub(crate) fn shade(
         channel(albedo.g, k.g, f.g, sky.g, bounce.g),
         channel(albedo.b, k.b, f.b, sky.b, bounce.b),
     ]
+}
+
+/// Nearer to a lamp than this share of its `full_at` it gets no brighter: light stays finite.
+pub(crate) const LAMP_CORE: f32 = 0.05;
+
+/// The way from a point to a lamp, unit length, and how strong the lamp is there, before any cosine.
+#[inline]
+pub(crate) fn lamp_at(lamp: &Lamp, point: Vec3) -> (Vec3, f32) {
+    let way = lamp.position - point;
+    let d2 = way.length_squared();
+    let full2 = lamp.full_at * lamp.full_at;
+    let strength = full2 / d2.max(full2 * (LAMP_CORE * LAMP_CORE));
+    (way * (1.0 / d2.max(1e-20).sqrt()), strength)
+}
+
+/// What lamps add to the linear colour of a lit surface. `first_light`: the share of the first lamp's
+/// light that arrives, 0..=1; the others cast no shadow.
+pub(crate) fn lamp_shade(
+    albedo: Color,
+    (point, normal): (Vec3, Vec3),
+    to_eye: Vec3,
+    first_light: f32,
+    lamps: &[Lamp],
+) -> [f32; 3] {
+    let mut sum = [0.0f32; 3];
+    for (index, lamp) in lamps.iter().enumerate() {
+        let (direction, strength) = lamp_at(lamp, point);
+        let facing = normal.dot(direction).max(0.0);
+        let arriving = if index == 0 { first_light } else { 1.0 };
+        let diffuse = facing * strength * arriving;
+        let half = (direction + to_eye).normalize_or(normal);
+        let glint = normal.dot(half).max(0.0);
+        let glint2 = glint * glint;
+        let glint4 = glint2 * glint2;
+        let glint16 = glint4 * glint4 * glint4 * glint4;
+        let highlight = glint16 * glint16 * HIGHLIGHT * diffuse;
+        let Color { r, g, b } = lamp.color;
+        let albedos = [albedo.r, albedo.g, albedo.b];
+        for ((sum, color), albedo) in sum.iter_mut().zip([r, g, b]).zip(albedos) {
+            *sum += color * (albedo * diffuse + highlight);
+        }
+    }
+    sum
+}
+
+/// How soon the ground comes near to its own colour, which it has under endless light: it is the
+/// brightest thing in most pictures and would be a white hole where lights add up.
+pub(crate) const GROUND_EXPOSURE: f32 = 1.2;
+
+/// Factors of the ground's encoded red, green and blue under lamps, 0..=1. The root stands for the
+/// encoding: the ground is mixed in encoded values.
+pub(crate) fn ground_light(
+    point: Vec3,
+    ambient: f32,
+    first_light: f32,
+    lamps: &[Lamp],
+) -> [f32; 3] {
+    let mut sum = [ambient; 3];
+    for (index, lamp) in lamps.iter().enumerate() {
+        let (direction, strength) = lamp_at(lamp, point);
+        let arriving = if index == 0 { first_light } else { 1.0 };
+        let diffuse = direction.y.max(0.0) * strength * arriving;
+        let Color { r, g, b } = lamp.color;
+        for (sum, color) in sum.iter_mut().zip([r, g, b]) {
+            *sum += color * diffuse;
+        }
+    }
+    sum.map(|light| (1.0 - libm::expf(-GROUND_EXPOSURE * light.max(0.0))).sqrt())
 }
 
 /// The share of the sky that a body sees at a height above the ground: less close to it, most of

@@ -82,6 +82,7 @@ impl Theme {
             sky: light(0xE6_EE_FA, 0.46),
             bounce: light(0xD8_D2_CA, 0.24),
             shadow_strength: 0.36,
+            ground_ambient: 1.0,
             shadow_softness: 0.022 * scale,
             contact_strength: 0.42,
         }

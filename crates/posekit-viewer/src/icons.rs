@@ -58,6 +58,12 @@ pub enum Icon {
     File,
     /// A standing figure.
     Figure,
+    /// A film camera.
+    Camera,
+    /// A box.
+    Box,
+    /// A ball.
+    Ball,
     /// An arrow that turns back to the left.
     Undo,
     /// An arrow that turns back to the right.
@@ -185,6 +191,19 @@ pub fn draw(painter: &Painter, icon: Icon, rect: Rect, color: Color32) {
             }
         }
         Icon::Moon => pen.moon(),
+        Icon::Camera => {
+            pen.outline(&[(0.06, 0.26), (0.66, 0.26), (0.66, 0.80), (0.06, 0.80)]);
+            pen.fill(&[(0.70, 0.53), (0.96, 0.30), (0.96, 0.76)]);
+        }
+        Icon::Box => {
+            pen.outline(&[(0.08, 0.36), (0.64, 0.36), (0.64, 0.92), (0.08, 0.92)]);
+            pen.line(&[(0.08, 0.36), (0.36, 0.10), (0.92, 0.10), (0.64, 0.36)]);
+            pen.line(&[(0.92, 0.10), (0.92, 0.64), (0.64, 0.92)]);
+        }
+        Icon::Ball => {
+            pen.ring((0.5, 0.5), 0.40);
+            pen.arc((0.5, 0.10), 0.56, 45.0, 135.0);
+        }
         Icon::Folder => pen.outline(&[
             (0.06, 0.20),
             (0.40, 0.20),

@@ -7,8 +7,8 @@
 use glam::{DMat4, DVec4, Vec3};
 use wide::{f32x8, i32x8};
 
-use crate::scene::{Background, Ground, Scene};
-use crate::shading::{CONTACT_REACH, SHADOW_TINT, contact_window};
+use crate::scene::{Background, Ground, Lamp, Scene};
+use crate::shading::{CONTACT_REACH, SHADOW_TINT, contact_window, ground_light};
 
 use super::shadow::ShadowMap;
 use super::tile::TILE;
@@ -71,6 +71,7 @@ pub(super) struct Floor {
     plane: Option<Plane>,
     ground: Option<GroundLook>,
     contacts: Vec<Contact>,
+    lamps: Vec<Lamp>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -82,6 +83,7 @@ struct GroundLook {
     shadow_strength: f32,
     shadow_softness: f32,
     contact_strength: f32,
+    ambient: f32,
 }
 
 /// One row of a tile: encoded sRGB and alpha, all in 0..=255, plane by plane so that eight pixels
@@ -140,14 +142,22 @@ impl Floor {
         let ground = scene.ground.filter(|g| scene.camera.eye.y > g.height);
         let plane = ground.and_then(|g| Plane::new(scene, g.height, width, height));
         let lighting = &scene.lighting;
+        // Under lamps the ground is lit as bodies are, and a shadow is where light is missing.
+        let is_solid = matches!(scene.background, Background::Gradient { .. });
+        let is_lit = is_solid && !scene.lamps.is_empty();
         let look = ground.map(|ground| GroundLook {
             ground,
             color: ground.color.to_srgb(),
             line: ground.line_color.to_srgb(),
             axes: ground.axis_colors.map(crate::color::Color::to_srgb),
-            shadow_strength: lighting.shadow_strength,
+            shadow_strength: if is_lit {
+                0.0
+            } else {
+                lighting.shadow_strength
+            },
             shadow_softness: lighting.shadow_softness,
             contact_strength: lighting.contact_strength,
+            ambient: lighting.ground_ambient,
         });
         let contacts = ground
             .map(|g| contacts(scene, g.height))
@@ -160,6 +170,11 @@ impl Floor {
             plane,
             ground: look,
             contacts,
+            lamps: if is_lit {
+                scene.drawn_lamps().to_vec()
+            } else {
+                Vec::new()
+            },
         }
     }
 
@@ -225,12 +240,43 @@ impl Floor {
                 continue;
             }
             if is_solid {
-                look.paint(&point, fade, group, row);
+                let light = self.lamp_light(look, &point, fade, (shadow, darkness));
+                look.paint(&point, fade, light, group, row);
             }
             if !darkness.is_none() {
                 self.darken_group(look, &point, fade, (shadow, darkness), group, row);
             }
         }
+    }
+
+    /// The factors of red, green and blue that the lamps make of eight pixels of ground; `None`
+    /// without lamps.
+    fn lamp_light(
+        &self,
+        look: &GroundLook,
+        point: &Points,
+        fade: f32x8,
+        (shadow, darkness): (&ShadowMap, &Darkness),
+    ) -> Option<[f32x8; 3]> {
+        if self.lamps.is_empty() {
+            return None;
+        }
+        let (xs, zs, fades) = (point.x.to_array(), point.z.to_array(), fade.to_array());
+        let mut planes = [[1.0f32; 8]; 3];
+        for k in (0..8).filter(|&k| fades[k] > 0.0) {
+            let at = Vec3::new(xs[k], look.ground.height, zs[k]);
+            let softness = look.shadow_softness;
+            let first_light = if darkness.shadowed {
+                shadow.light_at(at, softness, softness * 0.1)
+            } else {
+                1.0
+            };
+            let factors = ground_light(at, look.ambient, first_light, &self.lamps);
+            for (plane, factor) in planes.iter_mut().zip(factors) {
+                plane[k] = factor;
+            }
+        }
+        Some(planes.map(f32x8::from))
     }
 
     /// Applies shadow and contact to eight pixels.
@@ -270,7 +316,7 @@ impl Floor {
         (shadow, darkness): (&ShadowMap, &Darkness),
         pixel: &mut [f32; 4],
     ) {
-        let light = if darkness.shadowed {
+        let light = if darkness.shadowed && look.shadow_strength > 0.0 {
             shadow.light_at(at, look.shadow_softness, look.shadow_softness * 0.1)
         } else {
             1.0
@@ -395,7 +441,14 @@ impl GroundLook {
     }
 
     /// Mixes the ground and its grid over the background of eight pixels.
-    fn paint(&self, p: &Points, fade: f32x8, group: usize, row: &mut FloorRow) {
+    fn paint(
+        &self,
+        p: &Points,
+        fade: f32x8,
+        light: Option<[f32x8; 3]>,
+        group: usize,
+        row: &mut FloorRow,
+    ) {
         let g = &self.ground;
         let minor = line(p, g.grid_spacing, 0.5) * f32x8::splat(0.55);
         let major = line(p, g.grid_spacing * g.major_every as f32, 0.75);
@@ -409,6 +462,9 @@ impl GroundLook {
             value += (f32x8::splat(self.line[c]) - value) * lines;
             value += (f32x8::splat(self.axes[0][c]) - value) * along_x;
             value += (f32x8::splat(self.axes[1][c]) - value) * along_z;
+            if let Some(light) = light {
+                value = (value * light[c]).fast_min(f32x8::splat(1.0));
+            }
             let under = row.planes[c][group];
             row.planes[c][group] = under + (value * f32x8::splat(255.0) - under) * fade;
         }

@@ -58,6 +58,8 @@ pub(super) struct Geometry {
     pub(super) triangles: Vec<Triangle>,
     pub(super) surfaces: Vec<Surface>,
     clip: Vec<ClipVertex>,
+    /// What the normals of each joint of a model are mapped by.
+    normals: Vec<Mat3>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -155,10 +157,13 @@ impl Geometry {
         }
         self.clip.clear();
         self.clip.reserve(model.mesh.vertices.len());
+        self.normals.clear();
+        self.normals
+            .extend(model.joints.iter().map(|joint| normals_map(&joint.matrix3)));
         for vertex in &model.mesh.vertices {
             let joint = &model.joints[vertex.joint as usize];
             let world = transform(&joint.matrix3, vertex.position) + joint.translation;
-            let normal = transform(&joint.matrix3, vertex.normal);
+            let normal = transform(&self.normals[vertex.joint as usize], vertex.normal);
             self.clip.push(ClipVertex {
                 clip: viewport.clip(world),
                 world,
@@ -261,6 +266,20 @@ impl Geometry {
             self.triangles.push(Triangle { vertices, surface });
         }
     }
+}
+
+/// The map of normals that belongs to a map of points: its cofactors (the inverse transposed, times
+/// the determinant). A rotation's are the rotation itself, to the bit.
+fn normals_map(m: &Mat3) -> Mat3 {
+    let length2 = [m.x_axis, m.y_axis, m.z_axis].map(Vec3::length_squared);
+    if length2
+        .iter()
+        .all(|l| (l - length2[0]).abs() <= 1e-4 * length2[0])
+    {
+        return *m;
+    }
+    let [x, y, z] = [m.x_axis, m.y_axis, m.z_axis];
+    Mat3::from_cols(y.cross(z), z.cross(x), x.cross(y))
 }
 
 /// Matrix times vector in a fixed order.

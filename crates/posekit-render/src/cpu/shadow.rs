@@ -1,6 +1,7 @@
 //! The key light's shadow map and its soft lookup.
 //!
-//! The map is a depth picture of the shadow casters seen along the light, in parallel projection.
+//! The map is a depth picture of the shadow casters, in parallel projection along the key light or
+//! through a lens at the first lamp.
 //! Lookup is percentage-closer filtering (Reeves, Salesin and Cook 1987) over a disc of Vogel's
 //! spiral (Vogel 1979), each tap blended between four texels.
 
@@ -9,7 +10,7 @@ use wide::{f32x8, i32x8};
 
 use crate::scene::{Scene, Shadow};
 use crate::shading::{SHADOW_TAPS, shadow_disc};
-use crate::shadow_frame::{MAP_SIZE, MAX_SPREAD, ShadowFrame};
+use crate::shadow_frame::{MAP_SIZE, Rays, ShadowFrame};
 
 /// Texels along a side of a cell of the coarse map.
 const CELL: usize = 32;
@@ -122,17 +123,25 @@ impl ShadowMap {
             return false;
         };
         let (mut first, mut last) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        let mut nearest = f32::INFINITY;
         for (x, z) in [
             (low.x, low.z),
             (high.x, low.z),
             (low.x, high.z),
             (high.x, high.z),
         ] {
-            let p = frame.project(Vec3::new(x, low.y, z));
+            let corner = Vec3::new(x, low.y, z);
+            let distance = frame.distance(corner);
+            if distance < frame.depth && frame.rays == Rays::FromLamp {
+                // Beside the lamp or behind it there is no place on the map to look at.
+                return true;
+            }
+            nearest = nearest.min(distance);
+            let p = frame.project(corner);
             first = first.min(p);
             last = last.max(p);
         }
-        let reach = radius / frame.side;
+        let reach = radius / frame.side / nearest;
         let cell = |v: f32| index((v * CELLS as f32).max(0.0).min((CELLS - 1) as f32));
         if last.x < -reach || last.y < -reach || first.x > 1.0 + reach || first.y > 1.0 + reach {
             return false;
@@ -149,18 +158,14 @@ impl ShadowMap {
     #[inline]
     pub(super) fn light_at(&self, point: Vec3, radius: f32, bias: f32) -> f32 {
         let Some(frame) = &self.frame else { return 1.0 };
-        let p = frame.project(point);
-        if !(p.x > 0.0 && p.x < 1.0 && p.y > 0.0 && p.y < 1.0) {
+        let Some(at) = frame.receiver(point, radius, bias) else {
             return 1.0;
-        }
-        let receiver = p.z + bias / frame.depth;
-        let (x, y) = (p.x * MAP_SIZE as f32, p.y * MAP_SIZE as f32);
+        };
+        let (x, y, receiver, spread) = (at.x, at.y, at.depth, at.spread);
         let cell = index(y) / CELL * CELLS + index(x) / CELL;
         if self.coarse[cell] <= receiver {
             return 1.0;
         }
-        // The coarse map's neighbourhood covers a cell to all sides, no more.
-        let spread = (radius / frame.side * MAP_SIZE as f32).min(MAX_SPREAD);
         // A part of the taps, from all over the disc. Where they agree the others nearly always do.
         let (first, others) = (&self.disc[0], &self.disc[1..]);
         let probed = self.compare(x, y, spread, first, receiver);

@@ -11,7 +11,7 @@ use wide::{f32x8, u32x8};
 
 use crate::color::encode_linear;
 use crate::scene::{Background, Scene, Shadow};
-use crate::shading::{BODY_SOFTNESS, openness_above_ground, shade};
+use crate::shading::{BODY_SOFTNESS, lamp_at, lamp_shade, openness_above_ground, shade};
 
 use super::floor::{Darkness, Floor, FloorRow};
 use super::geometry::{Geometry, ScreenVertex, SurfaceKind, Triangle};
@@ -325,7 +325,12 @@ fn shade_pixel(source: &Source<'_>, id: u32, x: f32, y: f32) -> [u8; 3] {
         crate::camera::Projection::Orthographic { .. } => source.back,
     };
     let radius = lighting.shadow_softness * BODY_SOFTNESS;
-    let key_light = if shadowed == Shadow::None || normal.dot(lighting.key_direction) < -0.2 {
+    let lamps = source.scene.drawn_lamps();
+    let to_light = match lamps.first() {
+        Some(lamp) => lamp_at(lamp, world).0,
+        None => lighting.key_direction,
+    };
+    let key_light = if shadowed == Shadow::None || normal.dot(to_light) < -0.2 {
         // What faces away gets no key light, so nothing is looked up; ghosts get all of it.
         1.0
     } else {
@@ -340,5 +345,12 @@ fn shade_pixel(source: &Source<'_>, id: u32, x: f32, y: f32) -> [u8; 3] {
             lighting.shadow_softness * 16.0,
         )
     });
-    encode_linear(shade(albedo, normal, to_eye, key_light, openness, lighting))
+    let mut linear = shade(albedo, normal, to_eye, key_light, openness, lighting);
+    if !lamps.is_empty() {
+        let added = lamp_shade(albedo, (world, normal), to_eye, key_light, lamps);
+        for (sum, added) in linear.iter_mut().zip(added) {
+            *sum += added;
+        }
+    }
+    encode_linear(linear)
 }

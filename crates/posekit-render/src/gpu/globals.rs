@@ -5,9 +5,9 @@ use glam::{Mat4, Vec3};
 
 use crate::camera::Projection;
 use crate::color::Color;
-use crate::scene::{Background, Ground, Scene};
+use crate::scene::{Background, Ground, MOST_LAMPS, Scene};
 use crate::shading::shadow_disc;
-use crate::shadow_frame::{MAP_SIZE, ShadowFrame};
+use crate::shadow_frame::{MAP_SIZE, Rays, ShadowFrame};
 
 /// As `Globals` in the shader, which says what the fields mean.
 #[repr(C)]
@@ -16,7 +16,7 @@ pub(super) struct Globals {
     clip_from_world: [[f32; 4]; 4],
     eye: [f32; 4],
     back: [f32; 4],
-    shadow_rows: [[f32; 4]; 3],
+    shadow_rows: [[f32; 4]; 4],
     shadow: [f32; 4],
     key_direction: [f32; 4],
     key: [f32; 4],
@@ -32,6 +32,7 @@ pub(super) struct Globals {
     axis_z: [f32; 4],
     focus: [f32; 4],
     disc: [[f32; 4]; 16],
+    lamps: [[f32; 4]; 2 * MOST_LAMPS],
 }
 
 /// The ground as it is drawn: not from below.
@@ -58,6 +59,7 @@ impl Globals {
             Background::Gradient { top, bottom } => (top, bottom),
             Background::Transparent => (Color::default(), Color::default()),
         };
+        let lamps = scene.drawn_lamps();
         let flag = |on: bool| if on { 1.0 } else { 0.0 };
         let encodes = flag(target_encodes);
         let mut globals = Self {
@@ -66,8 +68,8 @@ impl Globals {
             back: with(back, 0.0),
             key_direction: with(lighting.key_direction, lighting.shadow_strength),
             key: linear(lighting.key, lighting.contact_strength),
-            fill_direction: with(lighting.fill_direction, 0.0),
-            fill: linear(lighting.fill, 0.0),
+            fill_direction: with(lighting.fill_direction, lamps.len() as f32),
+            fill: linear(lighting.fill, lighting.ground_ambient),
             sky: linear(lighting.sky, 0.0),
             bounce: linear(lighting.bounce, 0.0),
             top: encoded(top, height as f32),
@@ -78,6 +80,10 @@ impl Globals {
             globals.set_ground(ground);
         }
         globals.set_shadow(frame, lighting.shadow_softness);
+        for (pair, lamp) in globals.lamps.chunks_exact_mut(2).zip(lamps) {
+            pair[0] = with(lamp.position, lamp.full_at * lamp.full_at);
+            pair[1] = linear(lamp.color, 0.0);
+        }
         globals
     }
 
@@ -93,22 +99,43 @@ impl Globals {
     fn set_shadow(&mut self, frame: Option<&ShadowFrame>, softness: f32) {
         self.shadow = [0.0, 0.0, 0.0, softness];
         if let Some(frame) = frame {
-            let scales = [frame.side, frame.side, frame.depth];
-            for (row, axis) in frame.axes.iter().enumerate() {
-                let scale = 1.0 / scales[row];
-                self.shadow_rows[row] = with(*axis * scale, -frame.origin[row] * scale);
-            }
-            self.shadow = [
-                MAP_SIZE as f32 / frame.side,
-                1.0 / frame.depth,
-                1.0,
-                softness,
-            ];
+            self.shadow_rows = match frame.rays {
+                Rays::Parallel => parallel_rows(frame),
+                Rays::FromLamp => lens_rows(frame),
+            };
+            let is_lens = frame.rays == Rays::FromLamp;
+            self.back[3] = if is_lens { 1.0 } else { 0.0 };
+            let depth_per_length = if is_lens { 0.0 } else { 1.0 / frame.depth };
+            let texels_per_length = MAP_SIZE as f32 / frame.side;
+            self.shadow = [texels_per_length, depth_per_length, 1.0, softness];
         }
         for (pair, taps) in self.disc.iter_mut().zip(shadow_disc().chunks_exact(2)) {
             *pair = [taps[0].0, taps[0].1, taps[1].0, taps[1].1];
         }
     }
+}
+
+/// Map coordinates and depth of a world point; the last row gives 1.
+fn parallel_rows(frame: &ShadowFrame) -> [[f32; 4]; 4] {
+    let scales = [frame.side, frame.side, frame.depth];
+    let row = |i: usize| {
+        let scale = 1.0 / scales[i];
+        with(frame.axes[i] * scale, -frame.origin[i] * scale)
+    };
+    [row(0), row(1), row(2), [0.0, 0.0, 0.0, 1.0]]
+}
+
+/// The same, to be divided by the last row: the distance in front of the lens.
+fn lens_rows(frame: &ShadowFrame) -> [[f32; 4]; 4] {
+    let row = |axis: Vec3, scale: f32| with(axis * scale, -axis.dot(frame.origin) * scale);
+    let [across, along, back] = frame.axes;
+    let distance = row(back, -1.0);
+    let half_a_map = |axis: Vec3| {
+        let row = row(axis, 1.0 / frame.side);
+        std::array::from_fn(|k| row[k] + 0.5 * distance[k])
+    };
+    let depth = [0.0, 0.0, 0.0, frame.depth];
+    [half_a_map(across), half_a_map(along), depth, distance]
 }
 
 fn with(v: Vec3, w: f32) -> [f32; 4] {

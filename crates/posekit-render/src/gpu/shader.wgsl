@@ -7,17 +7,19 @@ struct Globals {
     clip_from_world: mat4x4<f32>,
     // xyz: the eye; w: 1 for a lens, 0 for parallel rays.
     eye: vec4<f32>,
-    // xyz: towards the viewer.
+    // xyz: towards the viewer; w: 1 when the shadow map is seen from a lamp.
     back: vec4<f32>,
-    // Shadow map coordinates of a world point: three rows.
-    shadow_rows: array<vec4<f32>, 3>,
+    // Shadow map coordinates and depth of a world point, times the fourth row.
+    shadow_rows: array<vec4<f32>, 4>,
     // x: texels per world length, y: map depth per world length, z: 1 with a map, w: softness.
     shadow: vec4<f32>,
     // xyz: towards the key light; w: shadow strength.
     key_direction: vec4<f32>,
     // rgb: linear; w: contact strength.
     key: vec4<f32>,
+    // w: the number of lamps.
     fill_direction: vec4<f32>,
+    // w: the light that the ground has without any lamp.
     fill: vec4<f32>,
     sky: vec4<f32>,
     bounce: vec4<f32>,
@@ -37,6 +39,9 @@ struct Globals {
     focus: vec4<f32>,
     // The filter's taps, two in each.
     disc: array<vec4<f32>, 16>,
+    // Two for each lamp. xyz: its place, w: the square of the distance at which it is at full
+    // strength; rgb: linear.
+    lamps: array<vec4<f32>, 32>,
 }
 
 @group(0) @binding(0) var<uniform> globals: Globals;
@@ -53,6 +58,8 @@ const KEY_WRAP: f32 = 0.15;
 const HIGHLIGHT: f32 = 0.10;
 const RIM: f32 = 0.16;
 const BODY_SOFTNESS: f32 = 0.4;
+const LAMP_CORE: f32 = 0.05;
+const GROUND_EXPOSURE: f32 = 1.2;
 const CONTACT_REACH: f32 = 4.0;
 const SHADOW_TINT: vec3<f32> = vec3<f32>(1.0, 0.96, 0.88);
 
@@ -114,22 +121,27 @@ fn joint_rows(in: ModelVertex) -> array<vec4<f32>, 3> {
 fn model_vertex(in: ModelVertex) -> ModelFragment {
     let rows = joint_rows(in);
     let local = vec4<f32>(in.position, 1.0);
-    let normal = vec4<f32>(in.normal, 0.0);
     var out: ModelFragment;
     out.world = vec3<f32>(dot(rows[0], local), dot(rows[1], local), dot(rows[2], local));
-    out.normal = vec3<f32>(dot(rows[0], normal), dot(rows[1], normal), dot(rows[2], normal));
+    // Normals go by the cofactors: under a scale they turn the other way than the surface.
+    out.normal = vec3<f32>(
+        dot(cross(rows[1].xyz, rows[2].xyz), in.normal),
+        dot(cross(rows[2].xyz, rows[0].xyz), in.normal),
+        dot(cross(rows[0].xyz, rows[1].xyz), in.normal),
+    );
     out.clip = globals.clip_from_world * vec4<f32>(out.world, 1.0);
     out.albedo = palette_texel(in.palette_start + (in.joint_and_material & 255u)).rgb;
     out.look = in.look;
     return out;
 }
 
-fn shadow_point(world: vec3<f32>) -> vec3<f32> {
+fn shadow_point(world: vec3<f32>) -> vec4<f32> {
     let p = vec4<f32>(world, 1.0);
-    return vec3<f32>(
+    return vec4<f32>(
         dot(globals.shadow_rows[0], p),
         dot(globals.shadow_rows[1], p),
         dot(globals.shadow_rows[2], p),
+        dot(globals.shadow_rows[3], p),
     );
 }
 
@@ -139,22 +151,56 @@ fn shadow_vertex(in: ModelVertex) -> @builtin(position) vec4<f32> {
     let local = vec4<f32>(in.position, 1.0);
     let world = vec3<f32>(dot(rows[0], local), dot(rows[1], local), dot(rows[2], local));
     let p = shadow_point(world);
-    return vec4<f32>(p.x * 2.0 - 1.0, 1.0 - p.y * 2.0, p.z, 1.0);
+    return vec4<f32>(p.x * 2.0 - p.w, p.w - p.y * 2.0, p.z, p.w);
 }
 
-// The share of the key light that reaches a point; see `ShadowMap::light_at`.
+// The share of the light that casts the shadow that reaches a point; see `ShadowMap::light_at`.
 fn light_at(world: vec3<f32>, radius: f32, bias: f32) -> f32 {
-    let p = shadow_point(world);
-    let inside = all(p.xy > vec2<f32>(0.0)) && all(p.xy < vec2<f32>(1.0));
-    let receiver = max(p.z + bias * globals.shadow.y, 0.0);
-    let spread = min(radius * globals.shadow.x, MAX_SPREAD) / MAP_SIZE;
+    let q = shadow_point(world);
+    let distance = max(q.w, 1e-20);
+    let p = q.xy / distance;
+    let inside = q.w > 0.0 && all(p > vec2<f32>(0.0)) && all(p < vec2<f32>(1.0));
+    let nearer = max(distance - bias * globals.back.w, 1e-20);
+    let receiver = clamp(q.z / nearer + bias * globals.shadow.y, 0.0, 1.0);
+    let spread = min(radius * globals.shadow.x / distance, MAX_SPREAD) / MAP_SIZE;
     var lit = 0.0;
     for (var i = 0; i < 16; i++) {
         let taps = globals.disc[i] * spread;
-        lit += textureSampleCompareLevel(shadow_map, shadow_sampler, p.xy + taps.xy, receiver);
-        lit += textureSampleCompareLevel(shadow_map, shadow_sampler, p.xy + taps.zw, receiver);
+        lit += textureSampleCompareLevel(shadow_map, shadow_sampler, p + taps.xy, receiver);
+        lit += textureSampleCompareLevel(shadow_map, shadow_sampler, p + taps.zw, receiver);
     }
     return select(1.0, lit / 32.0, inside && globals.shadow.z > 0.5);
+}
+
+// The way from a point to a lamp, and how strong the lamp is there; see `lamp_at`.
+fn lamp_at(index: i32, world: vec3<f32>) -> vec4<f32> {
+    let lamp = globals.lamps[2 * index];
+    let way = lamp.xyz - world;
+    let d2 = dot(way, way);
+    let strength = lamp.w / max(d2, lamp.w * (LAMP_CORE * LAMP_CORE));
+    return vec4<f32>(way / sqrt(max(d2, 1e-20)), strength);
+}
+
+// What lamps add to a lit surface; see `lamp_shade`.
+fn lamp_shade(
+    albedo: vec3<f32>,
+    world: vec3<f32>,
+    normal: vec3<f32>,
+    to_eye: vec3<f32>,
+    first_light: f32,
+) -> vec3<f32> {
+    var sum = vec3<f32>(0.0);
+    let count = i32(globals.fill_direction.w);
+    for (var i = 0; i < count; i++) {
+        let at = lamp_at(i, world);
+        let arriving = select(1.0, first_light, i == 0);
+        let diffuse = max(dot(normal, at.xyz), 0.0) * at.w * arriving;
+        let between = at.xyz + to_eye;
+        let half_way = between / max(length(between), 1e-6);
+        let highlight = pow(max(dot(normal, half_way), 0.0), 32.0) * HIGHLIGHT * diffuse;
+        sum += globals.lamps[2 * i + 1].rgb * (albedo * diffuse + highlight);
+    }
+    return sum;
 }
 
 @fragment
@@ -168,7 +214,11 @@ fn model_fragment(in: ModelFragment) -> @location(0) vec4<f32> {
     let radius = softness * BODY_SOFTNESS;
     let shadowed = light_at(in.world + normal * (radius * 1.5), radius, radius * 0.5);
     let facing = dot(normal, globals.key_direction.xyz);
-    let key_light = select(1.0, shadowed, in.look.y > 0.5 && facing >= -0.2);
+    var facing_shadow = facing;
+    if (globals.fill_direction.w > 0.5) {
+        facing_shadow = dot(normal, lamp_at(0, in.world).xyz);
+    }
+    let key_light = select(1.0, shadowed, in.look.y > 0.5 && facing_shadow >= -0.2);
     var openness = 1.0;
     if (globals.axis_z.w > 0.5) {
         let height = in.world.y - globals.focus.y;
@@ -185,7 +235,8 @@ fn model_fragment(in: ModelFragment) -> @location(0) vec4<f32> {
     let rim = grazing * grazing * grazing * RIM * up * openness;
     let ambient = mix(globals.bounce.rgb, globals.sky.rgb, up) * openness;
     let light = globals.key.rgb * key + globals.fill.rgb * (fill * openness) + ambient;
-    let linear = in.albedo * light + globals.key.rgb * highlight + globals.sky.rgb * rim;
+    let lamps = lamp_shade(in.albedo, in.world, normal, to_eye, key_light);
+    let linear = in.albedo * light + globals.key.rgb * highlight + globals.sky.rgb * rim + lamps;
     return vec4<f32>(to_target(encode(linear)), in.look.x);
 }
 
@@ -236,6 +287,18 @@ fn grid_line(value: f32, span: f32, spacing: f32, half_width: f32) -> f32 {
     return coverage * sparse;
 }
 
+// Factors of the ground's encoded colour under lamps; see `ground_light` of the CPU.
+fn ground_light(world: vec3<f32>, first_light: f32) -> vec3<f32> {
+    var sum = vec3<f32>(globals.fill.w);
+    let count = i32(globals.fill_direction.w);
+    for (var i = 0; i < count; i++) {
+        let at = lamp_at(i, world);
+        let arriving = select(1.0, first_light, i == 0);
+        sum += globals.lamps[2 * i + 1].rgb * (max(at.y, 0.0) * at.w * arriving);
+    }
+    return sqrt(1.0 - exp(-GROUND_EXPOSURE * max(sum, vec3<f32>(0.0))));
+}
+
 @fragment
 fn ground_fragment(in: GroundFragment) -> @location(0) vec4<f32> {
     let dx = dpdx(in.world);
@@ -255,10 +318,15 @@ fn ground_fragment(in: GroundFragment) -> @location(0) vec4<f32> {
     let along_z = clamp(1.6 - abs(in.world.x) / span.x, 0.0, 1.0) * 0.8;
     color = mix(color, globals.axis_x.rgb, along_x);
     color = mix(color, globals.axis_z.rgb, along_z);
-    color = mix(background_at(in.clip.y), color, fade);
     let softness = globals.shadow.w;
     let world = vec3<f32>(in.world.x, globals.focus.y, in.world.y);
-    let shade = (1.0 - light_at(world, softness, softness * 0.1)) * globals.key_direction.w * fade;
+    let first_light = light_at(world, softness, softness * 0.1);
+    var shade = (1.0 - first_light) * globals.key_direction.w * fade;
+    if (globals.fill_direction.w > 0.5) {
+        color = min(color * ground_light(world, first_light), vec3<f32>(1.0));
+        shade = 0.0;
+    }
+    color = mix(background_at(in.clip.y), color, fade);
     return vec4<f32>(to_target(color * (1.0 - shade * SHADOW_TINT)), 1.0);
 }
 

@@ -8,6 +8,7 @@ mod actor;
 mod options;
 mod room;
 mod show;
+mod surroundings;
 
 use glam::Vec3;
 
@@ -21,6 +22,7 @@ pub use options::{
     SkeletonStyle, StageOptions, Trails,
 };
 pub use room::Room;
+pub use surroundings::{AMBIENT, LIGHT_FULL_AT, Prop, PropShape, Surroundings, keyed_camera};
 
 /// Motions with their bodies, ready to be drawn at any time.
 #[derive(Clone, Debug)]
@@ -35,6 +37,7 @@ pub struct Stage {
     follows: bool,
     /// What must be in the picture: points of the world, or around the followed point.
     points: Vec<Vec3>,
+    surroundings: Surroundings,
 }
 
 impl Stage {
@@ -71,6 +74,7 @@ impl Stage {
             facing_yaw_rad,
             follows,
             points: Vec::new(),
+            surroundings: Surroundings::default(),
         };
         stage.points = stage.framed_points();
         stage
@@ -88,6 +92,17 @@ impl Stage {
         if let Some(actor) = self.actors.get_mut(index) {
             edit(actor);
         }
+    }
+
+    /// The lights and objects that stand around.
+    #[must_use]
+    pub fn surroundings(&self) -> &Surroundings {
+        &self.surroundings
+    }
+
+    /// Puts lights and objects around the actors. What the camera takes in stays as it is.
+    pub fn set_surroundings(&mut self, surroundings: Surroundings) {
+        self.surroundings = surroundings;
     }
 
     /// The options.
@@ -208,6 +223,8 @@ impl Stage {
         for (actor, &place) in self.actors.iter().zip(&self.places) {
             show::add_actor(&mut scene, self, actor, place, time_secs);
         }
+        let figure = self.actors.first().map_or(self.stature, Actor::stature);
+        self.surroundings.add_to(&mut scene, figure, time_secs);
         if !matches!(scene.background, Background::Transparent) {
             scene.captions.extend(grid_caption);
         }

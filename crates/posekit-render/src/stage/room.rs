@@ -60,6 +60,7 @@ impl Room {
                 axis_colors: theme.axis_lines,
             }),
             lighting: theme.lighting(self.size, yaw),
+            lamps: Vec::new(),
             models: Vec::new(),
             polylines: Vec::new(),
             labels: Vec::new(),

@@ -3,6 +3,7 @@
 use posekit_render::cpu;
 use posekit_render::gpu::GpuHeadless;
 use posekit_render::image::Image;
+use posekit_render::scene::Scene;
 use posekit_render::stage::{AxesShown, Ghosts, Labels, StageOptions, Trails};
 
 use crate::figures::{STYLES, stage_of, waving};
@@ -83,6 +84,21 @@ fn difference(a: &Image, b: &Image) -> (f64, f64) {
         count += 1;
     }
     (sum as f64 / count as f64, far as f64 / count as f64)
+}
+
+/// How far both back ends are apart on a scene: the mean difference of a channel, and the share of pixels
+/// that differ visibly. `None` where there is no driver.
+pub(crate) fn difference_of_back_ends(
+    scene: &Scene,
+    width: u32,
+    height: u32,
+) -> Option<(f64, f64)> {
+    let mut gpu = open()?;
+    let from_cpu = cpu::render(scene, width, height);
+    let mut from_gpu = Image::default();
+    gpu.render_into(scene, width, height, &mut from_gpu)
+        .unwrap();
+    Some(difference(&from_cpu, &from_gpu))
 }
 
 #[test]

@@ -13,3 +13,4 @@ mod films;
 #[cfg(feature = "gpu")]
 mod gpu_pictures;
 mod stages;
+mod surroundings;

@@ -166,7 +166,7 @@ impl Viewer {
 
     fn open_export(&mut self) {
         if self.session.active_clip().is_some() {
-            self.export = ExportWindow::Choosing(self.export_options);
+            self.export = ExportWindow::Choosing(self.first_export_options());
         }
     }
 

@@ -176,7 +176,9 @@ impl Viewer {
             self.help_open = help::show(ctx);
         }
         let (first, last) = self.session.transport.range();
-        match export::show(ctx, &mut self.export, last - first + 1) {
+        let cameras = self.camera_names();
+        self.follow_export_size();
+        match export::show(ctx, &mut self.export, last - first + 1, &cameras) {
             export::Answer::None => {}
             export::Answer::Start => self.ask_where_to_export(),
             export::Answer::Cancel => {

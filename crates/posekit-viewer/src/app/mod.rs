@@ -7,6 +7,7 @@ mod lab;
 mod layout;
 mod poses;
 mod saving;
+mod shot;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;

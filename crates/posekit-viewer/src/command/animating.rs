@@ -9,6 +9,7 @@ const NONE: Modifiers = Modifiers::NONE;
 const SHIFT: Modifiers = Modifiers::SHIFT;
 const CTRL: Modifiers = Modifiers::COMMAND;
 const ALT: Modifiers = Modifiers::ALT;
+const CTRL_ALT: Modifiers = Modifiers::COMMAND.plus(Modifiers::ALT);
 const CTRL_SHIFT: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
 
 /// What can be asked of the keys in the timeline: of those that are selected, where nothing else is said.
@@ -77,6 +78,27 @@ pub const ANIMATE_BINDINGS: &[Binding] = &[
         Key::I,
         Group::Animate,
         "Key the whole pose",
+    ),
+    bind(
+        Command::LookThrough,
+        NONE,
+        Key::Num0,
+        Group::Animate,
+        "Look through the camera",
+    ),
+    bind(
+        Command::CameraToView,
+        CTRL_ALT,
+        Key::Num0,
+        Group::Animate,
+        "Camera to view",
+    ),
+    bind(
+        Command::DeleteThing,
+        NONE,
+        Key::Delete,
+        Group::Animate,
+        "Delete the camera, light or prop",
     ),
     bind(
         Command::Keys(KeysCommand::NextKey),

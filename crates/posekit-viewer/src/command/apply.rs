@@ -56,6 +56,13 @@ fn apply_to_edits(command: Command, session: &mut Session) -> bool {
         Command::KeyWholePose => {
             session.insert_keys(KeyWhat::Whole);
         }
+        Command::LookThrough => session.toggle_look_through(),
+        Command::CameraToView => session.camera_to_view(),
+        Command::DeleteThing => {
+            if let Some(picked) = session.picked() {
+                session.remove_thing(picked.owner);
+            }
+        }
         Command::ToggleAutoKey | Command::ToggleUseIk => {
             let mut settings = session.animate();
             match command {
@@ -122,6 +129,18 @@ pub fn apply_to_camera(command: Command, camera: &mut ViewCamera, size: f32) -> 
 
 fn apply_to_view(command: Command, session: &mut Session) -> bool {
     let stature = session.stage().stature();
+    let before = session.camera.clone();
+    if session.looks_through().is_some() && apply_to_camera(command, &mut session.camera, stature) {
+        // The view turns away from the camera, from where that stands.
+        session.camera = before;
+        session.leave_camera();
+    }
+    if matches!(
+        command,
+        Command::Look(_) | Command::FrameSelected | Command::FrameAll
+    ) {
+        session.look_through(None);
+    }
     match command {
         Command::Look(view) => session.look_from(view),
         Command::FrameSelected => session.frame_selected(),

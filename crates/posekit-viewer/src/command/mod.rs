@@ -133,6 +133,12 @@ pub enum Command {
     KeepPose,
     /// The edited pose is taken back.
     ResetPose,
+    /// The view looks through a camera of the scene, or no longer.
+    LookThrough,
+    /// A camera of the scene takes the place of the view.
+    CameraToView,
+    /// What is picked is taken out of the scene.
+    DeleteThing,
     /// Joints are held where they are, or no longer.
     TogglePin(Hold),
     /// The figure is brought to the target once more.

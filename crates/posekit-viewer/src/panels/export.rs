@@ -3,7 +3,7 @@
 use egui::{RichText, Ui};
 
 use crate::theme::{GAP, Palette};
-use crate::work::export::{ExportOptions, ExportSize, Running, VideoFormat};
+use crate::work::export::{ExportCamera, ExportOptions, ExportSize, Running, VideoFormat};
 
 /// What the window is doing.
 #[derive(Debug, Default)]
@@ -29,7 +29,14 @@ pub enum Answer {
 }
 
 /// Shows the window.
-pub fn show(ctx: &egui::Context, window: &mut ExportWindow, frames: usize) -> Answer {
+///
+/// `cameras` are the names of the cameras of the clip's scene.
+pub fn show(
+    ctx: &egui::Context,
+    window: &mut ExportWindow,
+    frames: usize,
+    cameras: &[String],
+) -> Answer {
     if matches!(window, ExportWindow::Closed) {
         return Answer::None;
     }
@@ -41,7 +48,7 @@ pub fn show(ctx: &egui::Context, window: &mut ExportWindow, frames: usize) -> An
         ui.add_space(3.0 * GAP);
         answer = match window {
             ExportWindow::Closed => Answer::None,
-            ExportWindow::Choosing(options) => choose(ui, options, frames),
+            ExportWindow::Choosing(options) => choose(ui, options, frames, cameras),
             ExportWindow::Running(running) => progress(ui, running),
         };
     });
@@ -52,7 +59,7 @@ pub fn show(ctx: &egui::Context, window: &mut ExportWindow, frames: usize) -> An
     answer
 }
 
-fn choose(ui: &mut Ui, options: &mut ExportOptions, frames: usize) -> Answer {
+fn choose(ui: &mut Ui, options: &mut ExportOptions, frames: usize, cameras: &[String]) -> Answer {
     let quiet = Palette::in_ui(ui).quiet;
     egui::Grid::new("export")
         .num_columns(2)
@@ -86,9 +93,27 @@ fn choose(ui: &mut Ui, options: &mut ExportOptions, frames: usize) -> Answer {
                 }
             });
             ui.end_row();
+            if !cameras.is_empty() {
+                ui.label("From");
+                ui.horizontal_wrapped(|ui| {
+                    ui.selectable_value(&mut options.camera, ExportCamera::View, "View");
+                    for (index, name) in cameras.iter().enumerate() {
+                        let camera = ExportCamera::Scene(index);
+                        ui.selectable_value(&mut options.camera, camera, name);
+                    }
+                });
+                ui.end_row();
+            }
         });
     ui.add_space(2.0 * GAP);
-    let range = format!("The range of {frames} frames, from this camera, as it is shown now.");
+    let range = match options.camera {
+        ExportCamera::View => {
+            format!("The range of {frames} frames, from this camera, as it is shown now.")
+        }
+        ExportCamera::Scene(_) => {
+            format!("The range of {frames} frames as the scene's camera takes it.")
+        }
+    };
     ui.label(RichText::new(range).color(quiet));
     if cfg!(target_arch = "wasm32") {
         let why = "A page has no H.264 encoder: MP4 is made by the desktop program.";

@@ -6,7 +6,7 @@ use egui::{RichText, ScrollArea, Ui, vec2};
 use posekit::check::{Finding, Severity};
 
 use super::transport::severity_color;
-use super::{Asked, Request, edit, ik, row, scene, tip};
+use super::{Asked, Request, edit, ik, row, scene, things, tip};
 use crate::command::Command;
 use crate::icons::{self, Icon, icon_button};
 use crate::state::clip::Clip;
@@ -44,6 +44,10 @@ pub fn show(ui: &mut Ui, session: &mut Session, checking: Checking, asked: &mut 
                 row::divider(ui);
             } else if matches!(session.mode(), Mode::Pose | Mode::Ik) {
                 edit::show(ui, session, asked);
+                row::divider(ui);
+            }
+            if session.shows_things() {
+                things::show(ui, session);
                 row::divider(ui);
             }
             joint(ui, session, &clip, asked);

@@ -14,6 +14,7 @@ pub mod notices;
 pub mod pose_library;
 pub mod row;
 pub mod scene;
+pub mod things;
 pub mod timeline;
 pub mod top_bar;
 pub mod transport;

@@ -1,7 +1,7 @@
 //! The camera of the view: an orbit around what it follows.
 
 use glam::Vec3;
-use posekit_render::camera::{DEFAULT_VERTICAL_FOV_RAD, Orbit, Projection, View};
+use posekit_render::camera::{Camera, DEFAULT_VERTICAL_FOV_RAD, Orbit, Projection, View};
 use posekit_render::framing::{Framing, frame_points};
 use posekit_render::stage::Stage;
 
@@ -78,6 +78,21 @@ impl ViewCamera {
         let distance = radius / libm::sinf(DEFAULT_VERTICAL_FOV_RAD / 2.0);
         let factor = distance / self.orbit.distance;
         self.orbit = self.orbit.zoomed(factor);
+        self.framed = false;
+    }
+
+    /// Stands where a camera stands and looks at what it looks at.
+    pub fn stand_at(&mut self, camera: &Camera, stage: &Stage, time_secs: f64) {
+        let away = camera.eye - camera.target;
+        let distance = away.length();
+        if !distance.is_finite() || distance <= 0.0 {
+            return;
+        }
+        let level = libm::hypotf(away.x, away.z);
+        self.orbit.target = camera.target - stage.followed(time_secs);
+        self.orbit.yaw_rad = libm::atan2f(away.x, away.z);
+        self.orbit.pitch_rad = libm::atan2f(away.y, level);
+        self.orbit.distance = distance;
         self.framed = false;
     }
 

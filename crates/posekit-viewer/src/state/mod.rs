@@ -15,4 +15,5 @@ pub mod pick;
 pub mod readout;
 pub mod session;
 pub mod settings;
+pub mod things;
 pub mod transport;

@@ -3,11 +3,12 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use posekit_render::camera::Orbit;
+use posekit::keyframe::KeyedCamera;
 use posekit_render::output::{Film, even_size};
 use posekit_render::scene::Scene;
-use posekit_render::stage::Stage;
+use posekit_render::stage::{Stage, keyed_camera};
 
+use crate::state::animate::Authored;
 use crate::state::camera::ViewCamera;
 use crate::state::session::Session;
 
@@ -95,6 +96,15 @@ impl ExportSize {
     }
 }
 
+/// From where a video is taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ExportCamera {
+    /// From where the view looks.
+    View,
+    /// By a camera of the active clip's scene.
+    Scene(usize),
+}
+
 /// What video is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ExportOptions {
@@ -104,6 +114,8 @@ pub struct ExportOptions {
     pub size: ExportSize,
     /// Frames a second.
     pub fps: u32,
+    /// From where.
+    pub camera: ExportCamera,
 }
 
 impl Default for ExportOptions {
@@ -117,6 +129,7 @@ impl Default for ExportOptions {
                 ExportSize::Hd
             },
             fps: 30,
+            camera: ExportCamera::View,
         }
     }
 }
@@ -125,8 +138,15 @@ impl Default for ExportOptions {
 #[derive(Clone, Debug)]
 pub struct Take {
     stage: Stage,
-    camera: ViewCamera,
+    camera: TakeCamera,
     film: Film,
+}
+
+/// What a take is taken with.
+#[derive(Clone, Debug)]
+enum TakeCamera {
+    View(ViewCamera),
+    Scene(KeyedCamera),
 }
 
 impl Take {
@@ -144,10 +164,23 @@ impl Take {
         for time in &mut film.times_secs {
             *time = start + *time * speed;
         }
-        Self {
-            stage: session.stage().clone(),
-            camera: session.camera.clone(),
-            film,
+        let scene = session.authored().map(Authored::scene);
+        let of_scene = match options.camera {
+            ExportCamera::View => None,
+            ExportCamera::Scene(index) => scene.and_then(|scene| scene.cameras.get(index)),
+        };
+        match of_scene {
+            // A shot is drawn as its file is: nothing is left of how it was worked on.
+            Some(camera) => Self {
+                stage: session.shot_stage(),
+                camera: TakeCamera::Scene(camera.view.clone()),
+                film,
+            },
+            None => Self {
+                stage: session.stage().clone(),
+                camera: TakeCamera::View(session.camera.clone()),
+                film,
+            },
         }
     }
 
@@ -166,8 +199,15 @@ impl Take {
     /// The scene at a time.
     #[must_use]
     pub fn scene(&self, time_secs: f64) -> Scene {
-        let orbit: Orbit = self.camera.orbit(&self.stage, time_secs);
-        self.stage.scene_from(time_secs, orbit.camera())
+        let stage = &self.stage;
+        let camera = match &self.camera {
+            TakeCamera::View(view) => view.orbit(stage, time_secs).camera(),
+            TakeCamera::Scene(camera) => {
+                let at = stage.surroundings().start_secs + time_secs;
+                keyed_camera(camera, at, stage.stature())
+            }
+        };
+        stage.scene_from(time_secs, camera)
     }
 }
 

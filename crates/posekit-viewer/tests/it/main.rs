@@ -16,4 +16,5 @@ mod poses;
 mod reading;
 mod real_files;
 mod saving;
+mod things;
 mod window;

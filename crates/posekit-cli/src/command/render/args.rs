@@ -4,9 +4,8 @@ use std::ffi::OsString;
 use std::str::FromStr;
 
 use clap::{Args, ValueEnum};
-use posekit_render::camera::{DEFAULT_VERTICAL_FOV_RAD, Projection, View};
 use posekit_render::grid::LengthUnit;
-use posekit_render::stage::{AxesShown, CameraChoice, Follow, SkeletonStyle};
+use posekit_render::stage::{AxesShown, Follow, SkeletonStyle};
 use posekit_render::theme::Theme;
 
 use crate::args::RendererArg;
@@ -53,10 +52,11 @@ pub(crate) struct RenderArgs {
     /// The rest pose, which the OFFSETs alone make, instead of the motion
     #[arg(long, conflicts_with_all = ["frames", "contact_sheet"])]
     pub(super) rest: bool,
-    /// Where from: front, back, left, right, side, top, three-quarter, or YAW,PITCH in degrees (0,0 is
-    /// the front, 90,0 the figure's left) [default: a scene's first camera, else three-quarter]
+    /// Where from: a scene's camera by its name, or front, back, left, right, side, top, three-quarter,
+    /// or YAW,PITCH in degrees (0,0 is the front, 90,0 the figure's left) [default: a scene's first
+    /// camera, else three-quarter]
     #[arg(long, value_name = "VIEW", allow_hyphen_values = true)]
-    pub(super) camera: Option<CameraArg>,
+    pub(super) camera: Option<String>,
     /// How skeletons are drawn
     #[arg(long, value_name = "STYLE", default_value = "body")]
     pub(super) style: StyleArg,
@@ -135,72 +135,6 @@ impl FromStr for Size {
             Ok(Self { width, height })
         } else {
             Err(format!("sides go from 1 to {MAX_SIDE} pixels"))
-        }
-    }
-}
-
-/// Where the picture is taken from.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum CameraArg {
-    /// A named view.
-    View(View),
-    /// Degrees from the figure's front, and over the horizon.
-    Around { yaw_deg: f32, pitch_deg: f32 },
-}
-
-impl FromStr for CameraArg {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let view = match text {
-            "front" => View::Front,
-            "back" => View::Back,
-            "left" | "side" => View::Left,
-            "right" => View::Right,
-            "top" => View::Top,
-            "three-quarter" => View::ThreeQuarter,
-            _ => return angles(text),
-        };
-        Ok(Self::View(view))
-    }
-}
-
-fn angles(text: &str) -> Result<CameraArg, String> {
-    let refused = || {
-        format!(
-            "'{text}' is no view; there are front, back, left, right, side, top, three-quarter and \
-             YAW,PITCH in degrees"
-        )
-    };
-    let (yaw, pitch) = text.split_once(',').ok_or_else(refused)?;
-    let degrees = |digits: &str| {
-        let value = digits.trim().parse::<f32>().ok();
-        value.filter(|value| value.is_finite()).ok_or_else(refused)
-    };
-    let (yaw_deg, pitch_deg) = (degrees(yaw)?, degrees(pitch)?);
-    if pitch_deg.abs() > 90.0 {
-        return Err("the pitch goes from -90 to 90 degrees".to_owned());
-    }
-    Ok(CameraArg::Around { yaw_deg, pitch_deg })
-}
-
-impl Default for CameraArg {
-    fn default() -> Self {
-        Self::View(View::ThreeQuarter)
-    }
-}
-
-impl CameraArg {
-    pub(super) fn choice(self) -> CameraChoice {
-        match self {
-            Self::View(view) => CameraChoice::View(view),
-            Self::Around { yaw_deg, pitch_deg } => CameraChoice::Around {
-                yaw_rad: (yaw_deg % 360.0).to_radians(),
-                pitch_rad: pitch_deg.to_radians(),
-                projection: Projection::Perspective {
-                    vertical_fov_rad: DEFAULT_VERTICAL_FOV_RAD,
-                },
-            },
         }
     }
 }
@@ -315,25 +249,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn sizes_and_views_are_read_or_refused() {
+    fn sizes_are_read_or_refused() {
         let size = "640x360".parse::<Size>().unwrap();
         assert_eq!((size.width, size.height), (640, 360));
         for bad in ["640", "640x", "0x10", "10x99999", "x", "-1x5"] {
             assert!(bad.parse::<Size>().is_err(), "{bad}");
-        }
-        assert_eq!(
-            "side".parse::<CameraArg>().unwrap(),
-            CameraArg::View(View::Left)
-        );
-        assert_eq!(
-            "-30,12.5".parse::<CameraArg>().unwrap(),
-            CameraArg::Around {
-                yaw_deg: -30.0,
-                pitch_deg: 12.5
-            }
-        );
-        for bad in ["sideways", "1,2,3", "nan,0", "0,91", ","] {
-            assert!(bad.parse::<CameraArg>().is_err(), "{bad}");
         }
     }
 }

@@ -1,6 +1,7 @@
 //! `posekit render`: pictures and films of motions.
 
 mod args;
+mod camera;
 mod format;
 mod shot;
 mod write;

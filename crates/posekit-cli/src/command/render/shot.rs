@@ -1,18 +1,17 @@
 //! From an input and the options to a stage and the moments of it that are drawn.
 
 use std::ffi::OsString;
-use std::path::Path;
 use std::sync::Arc;
 
-use glam::Vec3;
 use posekit::keyframe::KeyedCamera;
 use posekit::motion::{Motion, PositionPolicy};
 use posekit::skeleton::{JointId, Skeleton};
-use posekit_render::camera::{Camera, Projection};
+use posekit_formats::scene;
 use posekit_render::output::{even_size, spread_times};
-use posekit_render::scene::{Background, Scene};
+use posekit_render::scene::{Background, MOST_LAMPS, Scene};
 use posekit_render::stage::{
-    Actor, Arrangement, Ghosts, Labels, SkeletonStyle, Stage, StageOptions, Trails,
+    Actor, Arrangement, Ghosts, Labels, Prop, PropShape, SkeletonStyle, Stage, StageOptions,
+    Surroundings, Trails, keyed_camera,
 };
 use posekit_render::theme::CharacterColors;
 
@@ -24,6 +23,7 @@ use crate::scene_file;
 use crate::select;
 
 use super::args::{RenderArgs, Size};
+use super::camera::{self, Chosen};
 use super::format::Product;
 
 /// Films are no faster than this unless asked: more frames than a screen shows.
@@ -39,8 +39,8 @@ const MOST_FRAMES: f64 = 1e7;
 #[derive(Debug)]
 pub(super) struct Shot {
     stage: Stage,
-    /// The camera of a scene file, and the scene's time at the first frame.
-    camera: Option<(KeyedCamera, f64)>,
+    /// A camera of the scene file, in place of the stage's view.
+    camera: Option<KeyedCamera>,
     /// Of one picture.
     pub(super) size: Size,
     /// Of a film.
@@ -56,8 +56,9 @@ impl Shot {
     pub(super) fn scene(&self, time_secs: f64) -> Scene {
         let aspect = self.size.width as f32 / self.size.height as f32;
         match &self.camera {
-            Some((camera, start_secs)) => {
-                let camera = camera_at(camera, start_secs + time_secs, self.stage.stature());
+            Some(camera) => {
+                let at = self.stage.surroundings().start_secs + time_secs;
+                let camera = keyed_camera(camera, at, self.stage.stature());
                 self.stage.scene_from(time_secs, camera)
             }
             None => self.stage.scene(time_secs, aspect),
@@ -109,7 +110,15 @@ pub(super) fn prepare(
     global: &Global,
 ) -> Result<Shot, Failure> {
     let name = input.name();
-    let (mut motion, mut warnings) = motion_of(input, global)?;
+    let scene = match &input.source {
+        Source::File(path) if scene_file::is_scene(path) => Some((path, scene_file::read(path)?)),
+        _ => None,
+    };
+    let (mut motion, mut warnings) = match &scene {
+        Some((path, scene)) => (scene_file::shot(path, scene)?.bake(None), Vec::new()),
+        None => motion_of(input, global)?,
+    };
+    let scene = scene.map(|(_, scene)| scene);
     let in_file = |failure: Failure| failure.in_file(&name);
     if motion.skeleton().joint_count() == 0 {
         return Err(in_file(Failure::new("has no joints to draw")));
@@ -130,18 +139,25 @@ pub(super) fn prepare(
     let longest = companions.iter().map(|motion| motion.duration_secs());
     let end_secs = longest.fold(motion.duration_secs(), f64::max);
     let times_secs = times(args, product, &motion, end_secs, frames_per_sec).map_err(in_file)?;
-    let options = options(args, &motion, companions).map_err(in_file)?;
+    let mut options = options(args, &motion, companions).map_err(in_file)?;
     let style = options.style;
-    let camera = match (&input.source, args.camera) {
-        (Source::File(path), None) if scene_file::is_scene(path) => first_camera(path)?,
-        _ => None,
+    let camera = match camera::choose(args.camera.as_deref(), scene.as_ref()).map_err(in_file)? {
+        Chosen::OfScene(camera) => Some(camera),
+        Chosen::View(choice) => {
+            options.camera = choice;
+            None
+        }
     };
     let motions = std::iter::once(Arc::new(motion)).chain(companions.iter().cloned());
     let actors = motions
         .enumerate()
         .map(|(index, motion)| actor(motion, style, index));
+    let mut stage = Stage::new(actors.collect(), options);
+    if let Some(scene) = &scene {
+        stage.set_surroundings(surroundings(scene, &name, &mut warnings));
+    }
     Ok(Shot {
-        stage: Stage::new(actors.collect(), options),
+        stage,
         camera,
         size,
         frames_per_sec,
@@ -150,36 +166,31 @@ pub(super) fn prepare(
     })
 }
 
-/// A scene file's first camera, and the time at which its motion starts.
-fn first_camera(path: &Path) -> Result<Option<(KeyedCamera, f64)>, Failure> {
-    let scene = scene_file::read(path)?;
-    let start_secs = scene.range_secs[0];
-    let first = scene.cameras.into_iter().next();
-    Ok(first.map(|camera| (camera.view, start_secs)))
-}
-
-/// A keyed camera at a time of its scene.
-#[allow(clippy::cast_possible_truncation, reason = "pictures are drawn in f32")]
-fn camera_at(camera: &KeyedCamera, time_secs: f64, stature: f32) -> Camera {
-    /// Lenses have angles between these; keys can overshoot.
-    const FOV_DEG: [f64; 2] = [1.0, 170.0];
-    let [least, most] = FOV_DEG;
-    let fov_deg = camera.vertical_fov_deg.at(time_secs).clamp(least, most);
-    let eye = camera.position.at(time_secs).as_vec3();
-    let target = camera.target.at(time_secs).as_vec3();
-    // A camera that is where it looks to, or looks straight down, still has to look somewhere.
-    let target = if eye == target { eye - Vec3::Z } else { target };
-    let level = Vec3::new(target.x - eye.x, 0.0, target.z - eye.z);
-    let is_steep = level.length() < 1e-4 * eye.distance(target);
-    Camera {
-        eye,
-        target,
-        up: if is_steep { Vec3::NEG_Z } else { Vec3::Y },
-        projection: Projection::Perspective {
-            vertical_fov_rad: fov_deg.to_radians() as f32,
-        },
-        near: 0.01 * stature,
-        far: 100.0 * stature,
+/// The lights and objects of a scene, and what must be said of them.
+fn surroundings(scene: &scene::Scene, file: &str, warnings: &mut Vec<String>) -> Surroundings {
+    if scene.lights.len() > MOST_LAMPS {
+        warnings.push(format!(
+            "{file}: only the first {MOST_LAMPS} lights are drawn"
+        ));
+    }
+    let prop = |prop: &scene::Prop| {
+        let shape = PropShape::named(&prop.shape).unwrap_or_else(|| {
+            let (name, shape) = (&prop.name, &prop.shape);
+            let warning =
+                format!("{file}: prop '{name}': mesh files are not read; a box stands for {shape}");
+            warnings.push(warning);
+            PropShape::Box
+        });
+        Prop::new(&shape, prop.transform.clone())
+    };
+    Surroundings {
+        props: scene.props.iter().map(prop).collect(),
+        lights: scene
+            .lights
+            .iter()
+            .map(|light| light.shine.clone())
+            .collect(),
+        start_secs: scene.range_secs[0],
     }
 }
 
@@ -309,7 +320,6 @@ fn options(
         axes: args.style.axes(),
         theme: args.theme.theme(),
         background: args.transparent.then_some(Background::Transparent),
-        camera: args.camera.unwrap_or_default().choice(),
         follow: args.follow.follow(),
         arrangement: if args.beside.is_empty() {
             Arrangement::AsRecorded
@@ -327,6 +337,7 @@ fn options(
         }),
         labels,
         unit: args.unit.unit(),
+        ..StageOptions::default()
     })
 }
 

@@ -3,6 +3,7 @@
 mod handles;
 mod limbs;
 mod strip;
+mod things;
 
 use egui::{Align2, Color32, FontId, PointerButton, Pos2, Rect, Response, Sense, Stroke, Ui, pos2};
 use glam::{Vec2, Vec3};
@@ -13,9 +14,11 @@ use posekit_render::camera::Camera;
 use super::Asked;
 use crate::command::Command;
 use crate::picture::painter::{Painter, Shot};
+use crate::state::animate::Owner;
 use crate::state::camera::ViewCamera;
 use crate::state::pick::{pick, pick_effector};
 use crate::state::session::{ClipId, Handles, Session};
+use crate::state::things::Picked;
 use crate::theme::Palette;
 
 /// A turn of the wheel by this many points makes things twice as near.
@@ -48,18 +51,36 @@ pub fn show(
     let gizmo = handles::interact(ui, &response, session);
     if !gizmo.is_held {
         let size = session.stage().stature();
+        let before = session.camera.clone();
         move_camera(ui, &response, &mut session.camera, size);
+        if session.looks_through().is_some() && session.camera != before {
+            session.camera = before;
+            session.leave_camera();
+        }
     }
     painter.update(ui.ctx(), session, pixels_of(ui, rect));
-    let hovered = match gizmo.has_pointer() {
-        true => None,
-        false => find_hovered(ui, &response, session, painter),
-    };
+    let mut hovered = None;
+    let mut thing = None;
+    if let (false, Some(shot)) = (gizmo.has_pointer(), painter.shot()) {
+        hovered = find_hovered(ui, &response, session, painter);
+        thing = things::hovered(ui, &response, session, &shot.camera);
+    }
+    // A symbol is over the figure; a prop may be behind it.
+    let is_symbol = |picked: &Picked| !matches!(picked.owner, Owner::Prop(_));
+    match thing {
+        Some(picked) if is_symbol(&picked) => hovered = None,
+        Some(_) if hovered.is_some() => thing = None,
+        _ => {}
+    }
     if !gizmo.is_held {
-        click(ui, &response, session, hovered);
+        match thing {
+            Some(picked) if response.clicked() => session.pick(Some(picked)),
+            _ => click(ui, &response, session, hovered),
+        }
     }
     paint(ui, rect, session, painter, hovered);
     if let Some(shot) = painter.shot() {
+        things::paint(ui, rect, session, (shot, thing));
         limbs::paint(ui, rect, session, shot);
         handles::paint(ui, rect, session, (&gizmo, shot));
     }

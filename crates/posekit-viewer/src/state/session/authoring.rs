@@ -108,6 +108,9 @@ impl Session {
         let moved_secs = start - authored.scene().range_secs[0];
         if authored.revision() != revision {
             self.rebake(id, moved_secs);
+            if is_active {
+                self.surround();
+            }
         }
         Some(done)
     }
@@ -155,6 +158,7 @@ impl Session {
         self.authoring.open.remove(&id);
         if self.active == Some(id) {
             self.authoring.pending = None;
+            self.forget_things();
         }
     }
 
@@ -238,10 +242,10 @@ impl Session {
         self.transport.set_time_secs(time_secs - start);
     }
 
-    /// Whether a pose was made that is not keyed.
+    /// Whether a pose was made that is not keyed, or something around was set so.
     #[must_use]
     pub fn has_pending_pose(&self) -> bool {
-        self.authoring.pending.is_some()
+        self.authoring.pending.is_some() || self.has_pending_values()
     }
 
     /// The pose that was made and is not keyed, while its time is shown.
@@ -289,18 +293,24 @@ impl Session {
     }
 
     /// Where a key is set now, in seconds of the scene.
-    fn key_time(&self) -> f64 {
+    pub(super) fn key_time(&self) -> f64 {
         let now = self.scene_secs();
         self.authored()
             .map_or(now, |authored| authored.snapped(now))
     }
 
-    /// Sets keys of the pose that is shown, at the time shown. How many joints got one.
+    /// Sets keys of the pose that is shown, at the time shown, or of the camera, light or prop that is
+    /// picked. How many joints or properties got one.
     pub fn insert_keys(&mut self, what: KeyWhat) -> usize {
         if self.authored().is_none() {
             return 0;
         }
         self.transport.pause();
+        if what == KeyWhat::Selected
+            && let Some(count) = self.key_picked()
+        {
+            return count;
+        }
         let (Some(pose), Some(before)) = (self.shown_local_pose(), self.unposed()) else {
             return 0;
         };
@@ -339,15 +349,17 @@ impl Session {
 
     /// Gives a pose up that is not keyed. True when there was one.
     pub fn drop_pending(&mut self) -> bool {
+        let was_set = self.drop_pending_values();
         let was_pending = self.authoring.pending.take().is_some();
         if was_pending {
             self.hold(None);
         }
-        was_pending
+        was_pending || was_set
     }
 
     /// A pose that is not keyed is gone when another time is shown.
     pub(super) fn follow_time(&mut self) {
+        self.follow_time_of_values();
         let now = self.transport.time_secs();
         let is_old = |pending: &Pending| (pending.time_secs - now).abs() > 1e-9;
         if self.authoring.pending.as_ref().is_some_and(is_old) {

@@ -321,6 +321,15 @@ impl Session {
                 ..*held.drag.gizmo()
             });
         }
+        if let Some(drag) = self.thing_drag() {
+            return Some(Gizmo {
+                position: drag.placement().position,
+                ..*drag.gizmo()
+            });
+        }
+        if self.picked().is_some() {
+            return self.thing_gizmo();
+        }
         match self.handles() {
             Handles::None => None,
             Handles::Joints => self.joint_gizmo(),
@@ -366,19 +375,23 @@ impl Session {
     /// Whether a handle is held.
     #[must_use]
     pub fn is_dragging(&self) -> bool {
-        self.editing.held.is_some()
+        self.editing.held.is_some() || self.thing_drag().is_some()
     }
 
     /// The drag of the handle that is held.
     #[must_use]
     pub fn drag(&self) -> Option<&Drag> {
-        self.editing.held.as_ref().map(|held| &held.drag)
+        let joint = self.editing.held.as_ref().map(|held| &held.drag);
+        joint.or(self.thing_drag())
     }
 
     /// Takes a handle of the gizmo. False when there is nothing to take.
     pub fn grab(&mut self, handle: Handle, pointer: Pos2, viewport: &Viewport) -> bool {
         self.stop_editing();
         self.transport.pause();
+        if let Some(taken) = self.grab_thing(handle, pointer, viewport) {
+            return taken;
+        }
         let (Some(gizmo), Some(joint)) = (self.gizmo(), self.selected()) else {
             return false;
         };
@@ -403,6 +416,9 @@ impl Session {
 
     /// Follows the pointer with the handle that is held.
     pub fn drag_to(&mut self, pointer: Pos2, viewport: &Viewport, snap: Option<Snap>) {
+        if self.drag_thing(pointer, viewport, snap) {
+            return;
+        }
         let Some(mut held) = self.editing.held.take() else {
             return;
         };
@@ -447,6 +463,9 @@ impl Session {
 
     /// Lets the handle go: what it did becomes a step.
     pub fn drop_handle(&mut self) {
+        if self.drop_thing() {
+            return;
+        }
         let Some(held) = self.editing.held.take() else {
             return;
         };
@@ -473,6 +492,9 @@ impl Session {
 
     /// Lets the handle go without effect. True when one was held.
     pub fn cancel_drag(&mut self) -> bool {
+        if self.cancel_thing() {
+            return true;
+        }
         let was_held = self.editing.held.take().is_some();
         self.limbs.dragged = None;
         if was_held || self.editing.live.is_some() {

@@ -7,6 +7,7 @@ mod limbs;
 mod posing;
 mod selection;
 mod staging;
+mod things;
 
 use std::sync::Arc;
 
@@ -30,6 +31,8 @@ use editing::Editing;
 pub use limbs::Hold;
 use limbs::Limbs;
 use staging::actor_of;
+use things::Things;
+pub use things::{KeyState, NewThing};
 
 /// A joint that is taken into the picture alone shows this much of the figure around it.
 const JOINT_FRAME_STATURES: f32 = 0.25;
@@ -73,6 +76,7 @@ pub struct Session {
     aspect: f32,
     editing: Editing,
     limbs: Limbs,
+    things: Things,
     authoring: Authoring,
 }
 
@@ -101,6 +105,7 @@ impl Session {
             aspect: 16.0 / 9.0,
             editing: Editing::default(),
             limbs: Limbs::default(),
+            things: Things::default(),
             authoring: Authoring::default(),
         };
         session.set_stage();
@@ -241,6 +246,7 @@ impl Session {
         if !same {
             self.selection.clear();
         }
+        self.forget_things();
         let was_playing = self.transport.is_playing();
         self.transport.load(frame_count, frame_time);
         if was_playing {
@@ -434,9 +440,11 @@ impl Session {
     /// The camera now.
     #[must_use]
     pub fn view_camera(&self) -> Camera {
-        self.camera
-            .orbit(&self.stage, self.stage_time_secs())
-            .camera()
+        self.framed_camera().unwrap_or_else(|| {
+            self.camera
+                .orbit(&self.stage, self.stage_time_secs())
+                .camera()
+        })
     }
 
     /// The scene now.

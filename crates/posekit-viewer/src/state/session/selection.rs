@@ -20,6 +20,7 @@ impl Session {
 
     /// Selects one joint alone, or none.
     pub fn select(&mut self, joint: Option<JointId>) {
+        self.forget_picked();
         self.selection.clear();
         self.selection.extend(joint);
         self.selection_changed();
@@ -27,6 +28,7 @@ impl Session {
 
     /// Adds a joint to the selection, or takes it out.
     pub fn toggle_selected(&mut self, joint: JointId) {
+        self.forget_picked();
         if let Some(index) = self
             .selection
             .iter()

@@ -14,6 +14,7 @@ use crate::state::animate::Owner;
 use crate::state::clip::{Clip, rest_motion};
 use crate::state::display::{Display, Look, PoseShown};
 use crate::state::mode::Mode;
+use crate::state::things::surroundings;
 
 /// How many ghosts there are before and after the figure.
 const GHOSTS_EACH_SIDE: usize = 3;
@@ -31,7 +32,7 @@ impl Session {
         if self.pose_shown == PoseShown::Rest {
             self.stage = self.stage_at_rest(time);
         }
-        self.stage_version += 1;
+        self.surround();
     }
 
     /// The stage with every figure at rest, where it stands in its motion at a time.
@@ -47,6 +48,19 @@ impl Session {
             ..self.stage_options()
         };
         Stage::new(at_rest.collect(), options)
+    }
+
+    /// The stage of the active clip's scene as a file of it is drawn: the figure alone, its body fitted to
+    /// the motion as it is now, nothing held or marked.
+    #[must_use]
+    pub fn shot_stage(&self) -> Stage {
+        let open = self.clips.iter().find(|open| Some(open.id) == self.active);
+        let actor = open.map(|open| actor_of(&open.clip, &self.display, open.color));
+        let mut stage = Stage::new(actor.into_iter().collect(), self.stage_options());
+        if let Some(authored) = self.authored() {
+            stage.set_surroundings(surroundings(authored.scene()));
+        }
+        stage
     }
 
     /// Figures that are told in another unit of length than the active one are made as tall as it
