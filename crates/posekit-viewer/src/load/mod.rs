@@ -17,6 +17,7 @@ use posekit::check::Finding;
 
 use crate::state::arm::Robot;
 use crate::state::clip::Clip;
+use crate::state::interpolation::clip::{FillJob, Filled};
 use crate::state::session::ClipId;
 
 pub use job::read_clip;
@@ -91,6 +92,8 @@ pub enum Event {
     },
     /// A robot was read.
     Robot(Box<Robot>),
+    /// A clip's frames were filled in by a method; `None` where nothing can be kept.
+    FilledIn(Option<Box<Filled>>),
     /// Something could not be done.
     Failed {
         /// What, and why, for people.
@@ -307,6 +310,14 @@ impl Loader {
         thread::start(move || {
             let findings = crate::state::clip::check(&clip);
             outbox.send(Event::Checked { clip: id, findings });
+        });
+    }
+
+    /// Starts filling in a clip's frames by a method.
+    pub fn fill_in(&mut self, job: FillJob) {
+        let outbox = self.outbox.clone();
+        thread::start(move || {
+            outbox.send(Event::FilledIn(job.run().map(Box::new)));
         });
     }
 

@@ -42,7 +42,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, sides: Sides, asked: &mut Asked)
         }
         file_menu(ui, asked);
         view_menu(ui, session, asked);
-        if session.mode() != Mode::Lab {
+        if !session.mode().is_lab() {
             style_choice(ui, session);
             figure_menu(ui, session, asked);
             rest_button(ui, session, asked);
@@ -150,7 +150,7 @@ fn view_menu(ui: &mut Ui, session: &mut Session, asked: &mut Asked) {
             asked,
         );
         let parallel = session.camera.is_orthographic();
-        let says = if session.mode() == Mode::Lab {
+        let says = if session.mode().is_lab() {
             "Perspective or parallel rays"
         } else if parallel {
             "Perspective"
@@ -158,7 +158,7 @@ fn view_menu(ui: &mut Ui, session: &mut Session, asked: &mut Asked) {
             "Parallel rays"
         };
         item(ui, says, Command::ToggleProjection, asked);
-        if session.mode() == Mode::Lab {
+        if session.mode().is_lab() {
             return;
         }
         ui.separator();

@@ -16,11 +16,19 @@ pub enum Mode {
     Ik,
     /// Robot arms on a bench of their own.
     Lab,
+    /// Ways between orientations, side by side.
+    Interpolation,
 }
 
 impl Mode {
     /// All modes, in the order in which they are offered.
-    pub const ALL: [Self; 4] = [Self::View, Self::Pose, Self::Ik, Self::Lab];
+    pub const ALL: [Self; 5] = [
+        Self::View,
+        Self::Pose,
+        Self::Ik,
+        Self::Lab,
+        Self::Interpolation,
+    ];
 
     /// The name shown.
     #[must_use]
@@ -30,6 +38,7 @@ impl Mode {
             Self::Pose => "Pose",
             Self::Ik => "IK",
             Self::Lab => "Arm lab",
+            Self::Interpolation => "Interpolation lab",
         }
     }
 
@@ -41,6 +50,7 @@ impl Mode {
             Self::Pose => "Turn joints by hand",
             Self::Ik => "Drag hands and feet; the body follows",
             Self::Lab => "Robot arms: joints, tips, and the numbers behind them",
+            Self::Interpolation => "The ways between orientations, and why slerp is the right one",
         }
     }
 
@@ -48,10 +58,16 @@ impl Mode {
     #[must_use]
     pub const fn hint(self) -> &'static str {
         match self {
-            Self::View | Self::Lab => "",
+            Self::View | Self::Lab | Self::Interpolation => "",
             Self::Pose => "Click a bone, drag its rings",
             Self::Ik => "Click a dot, drag its arrows",
         }
+    }
+
+    /// Whether it is a room of its own, in which the clips are not on the stage.
+    #[must_use]
+    pub const fn is_lab(self) -> bool {
+        matches!(self, Self::Lab | Self::Interpolation)
     }
 
     /// Whether poses of clips are changed in it.
@@ -118,7 +134,7 @@ impl ToolSettings {
     pub fn space_in(&mut self, mode: Mode) -> &mut Space {
         match mode {
             Mode::Ik => &mut self.ik_space,
-            Mode::View | Mode::Pose | Mode::Lab => &mut self.space,
+            Mode::View | Mode::Pose | Mode::Lab | Mode::Interpolation => &mut self.space,
         }
     }
 }

@@ -134,7 +134,7 @@ fn find_hovered(
         }
         let pick = match session.mode() {
             Mode::Ik => pick_effector,
-            Mode::View | Mode::Pose | Mode::Lab => pick,
+            Mode::View | Mode::Pose | Mode::Lab | Mode::Interpolation => pick,
         };
         let (joint, distance) = pick(
             skeleton,

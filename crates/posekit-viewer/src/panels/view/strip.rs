@@ -68,7 +68,7 @@ fn tool_choice(ui: &mut Ui, session: &Session, asked: &mut Asked) {
             ];
             (chosen, options)
         }
-        Mode::View | Mode::Pose | Mode::Lab => {
+        Mode::View | Mode::Pose | Mode::Lab | Mode::Interpolation => {
             let options = [
                 (Tool::Move, "Move", "Arrows: move what the file lets move"),
                 (Tool::Turn, "Turn", "Rings: turn"),

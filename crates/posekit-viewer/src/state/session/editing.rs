@@ -63,7 +63,7 @@ impl Session {
     pub fn set_mode(&mut self, mode: Mode) {
         self.stop_editing();
         self.editing.mode = mode;
-        if mode == Mode::Lab {
+        if mode.is_lab() {
             self.transport.pause();
         }
         if mode.edits() {
@@ -266,7 +266,7 @@ impl Session {
             });
         }
         match self.editing.mode {
-            Mode::View | Mode::Lab => None,
+            Mode::View | Mode::Lab | Mode::Interpolation => None,
             Mode::Pose => self.joint_gizmo(),
             Mode::Ik => self.target_gizmo(),
         }
