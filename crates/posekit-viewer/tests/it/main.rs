@@ -7,6 +7,7 @@ mod arm_lab;
 mod clips;
 mod comparing;
 mod editing;
+mod interpolation;
 mod limbs;
 mod numbers;
 mod pictures;

@@ -46,8 +46,8 @@ impl Quantity {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Speed => "Speed",
-            Self::Deviation => "From slerp",
-            Self::Determinant => "Determinant",
+            Self::Deviation => "Strays",
+            Self::Determinant => "Det",
             Self::Shear => "Shear",
             Self::Angles => "Angles",
         }

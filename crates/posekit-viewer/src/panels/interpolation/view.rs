@@ -174,7 +174,11 @@ fn captions(ui: &Ui, canvas: &Canvas, rect: Rect, lab: &InterpolationLab) {
                 caption(canvas, middle, cell.width(), (lab, method), &palette);
             }
         }
-        Picture::Overlaid | Picture::Sphere => legend(canvas, rect, lab, &palette),
+        Picture::Overlaid => legend(canvas, rect, lab, &palette),
+        Picture::Sphere => {
+            legend(canvas, rect, lab, &palette);
+            tips(canvas, rect, lab, &palette);
+        }
     }
 }
 
@@ -215,6 +219,22 @@ fn caption(
     let is_no_rotation = !method.makes_rotations() && (now.blend.determinant() - 1.0).abs() > 5e-3;
     let ink = if is_no_rotation { palette.warning } else { palette.quiet };
     canvas.text(place, egui::Align2::CENTER_TOP, text, small, ink);
+}
+
+/// The names of the start's and the end's tip on the sphere.
+fn tips(canvas: &Canvas, rect: Rect, lab: &InterpolationLab, palette: &Palette) {
+    let viewport = Viewport::new(lab.view_camera(), rect);
+    for (end, name) in ["start", "end"].into_iter().enumerate() {
+        let Some(place) = viewport.project(lab.tip_on_sphere(end)) else {
+            continue;
+        };
+        let font = FontId::proportional(12.0);
+        let galley = canvas.layout_no_wrap(name.to_owned(), font, palette.text);
+        let at = place + vec2(-0.5 * galley.size().x, 8.0);
+        let plate = Rect::from_min_size(at, galley.size()).expand2(vec2(4.0, 1.0));
+        canvas.rect_filled(plate, 4.0, palette.raised.gamma_multiply(0.8));
+        canvas.galley(at, galley, palette.text);
+    }
 }
 
 /// The names of the methods in their colours, where all are in one place.

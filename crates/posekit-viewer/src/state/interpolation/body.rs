@@ -12,7 +12,7 @@ use posekit_render::scene::{Model, Polyline, Shadow};
 use posekit_render::theme::Theme;
 
 /// Half the head's box.
-pub const HALF: Vec3 = Vec3::new(0.36, 0.44, 0.40);
+pub const HALF: Vec3 = Vec3::new(0.42, 0.50, 0.45);
 
 const RED: u32 = 0xD9_58_4F;
 const GREEN: u32 = 0x4E_A2_5A;
@@ -34,23 +34,23 @@ static PARTS: LazyLock<Vec<(Shape, MaterialId)>> = LazyLock::new(|| {
             MaterialId::Base,
         ),
         (
-            Shape::cuboid(Vec3::new(0.15, 0.025, 0.03), 0.01)
-                .mapped(Mat3::IDENTITY, Vec3::new(0.0, -0.24, HALF.z)),
+            Shape::cuboid(Vec3::new(0.17, 0.03, 0.03), 0.01)
+                .mapped(Mat3::IDENTITY, Vec3::new(0.0, -0.27, HALF.z)),
             MaterialId::Accent,
         ),
     ];
     for side in [-1.0, 1.0] {
-        let eye = Vec3::new(0.16 * side, 0.16, HALF.z);
-        parts.push((Shape::ball(eye, 0.065, 12), MaterialId::Accent));
+        let eye = Vec3::new(0.18 * side, 0.19, HALF.z);
+        parts.push((Shape::ball(eye, 0.075, 12), MaterialId::Accent));
     }
     for (axis, material) in [
         (Vec3::X, MaterialId::AxisX),
         (Vec3::Y, MaterialId::AxisY),
         (Vec3::Z, MaterialId::AxisZ),
     ] {
-        let rod = Shape::tapered_capsule(Vec3::ZERO, 0.035, axis * 0.86, 0.035, 10);
+        let rod = Shape::tapered_capsule(Vec3::ZERO, 0.035, axis * 0.90, 0.035, 10);
         parts.push((rod, material));
-        let tip = Shape::turned(axis * 0.78, axis * 1.0, &[0.085, 0.05, 0.0], 12);
+        let tip = Shape::turned(axis * 0.80, axis * 1.0, &[0.085, 0.05, 0.0], 12);
         parts.push((tip, material));
     }
     parts

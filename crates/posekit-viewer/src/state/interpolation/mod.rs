@@ -416,6 +416,12 @@ impl InterpolationLab {
         scene::scene(self, look)
     }
 
+    /// Where the tip of an end's axis is on the sphere of directions, in the scene: 0 is the start, 1 the end.
+    #[must_use]
+    pub fn tip_on_sphere(&self, end: usize) -> glam::Vec3 {
+        scene::tip_on_sphere(self, end)
+    }
+
     /// The rings of an end's body: 0 is the start, 1 the end.
     #[must_use]
     pub fn gizmo(&self, end: usize) -> Gizmo {

@@ -1,6 +1,7 @@
 //! The lab's view as a scene: start, end, and what the methods make of the way between them.
 
 use glam::{DVec3, Vec3};
+use posekit::inbetween::Method;
 use posekit::rotation::matrix_from_quat;
 use posekit_render::camera::Camera;
 use posekit_render::color::Color;
@@ -65,6 +66,18 @@ pub(super) fn scene(lab: &InterpolationLab, look: Look) -> Scene {
     scene
 }
 
+/// Where the tip of an end's axis is on the sphere.
+#[must_use]
+pub(super) fn tip_on_sphere(lab: &InterpolationLab, end: usize) -> Vec3 {
+    let (camera, layout) = (lab.view_camera(), lab.layout());
+    let cell = layout.cells.first().copied();
+    let cell = cell.unwrap_or(layout.ends[0]);
+    let middle = layout.world(&camera, Layout::body_place(cell));
+    let radius = FILLS * Layout::body_reach(cell) * layout.length_of_point(&camera);
+    let turned = lab.case().rotation(lab.ends()[end]) * lab.tip_in_body();
+    middle + turned.as_vec3() * (radius * OVER)
+}
+
 /// A scene that is being set.
 struct Stage<'a> {
     scene: &'a mut Scene,
@@ -123,24 +136,28 @@ impl Stage<'_> {
             return;
         };
         let (middle, size) = self.middle_and_size(cell);
+        // Solid bodies would hide each other: slerp's is half there, the others are boxes of lines.
+        let slerp = matrix_from_quat(lab.now(Method::Slerp).rotation);
+        let look = BodyLook {
+            color: body::faint(color_of(Method::Slerp), &self.theme, 0.45),
+            opacity: 0.5,
+        };
+        self.scene
+            .models
+            .push(body::model(&slerp, middle, size, look));
         for method in lab.shown() {
             let map = lab.now(method).blend.matrix;
             let color = color_of(method);
-            let look = BodyLook {
-                color,
-                opacity: 0.25,
-            };
-            self.scene.models.push(body::model(&map, middle, size, look));
             self.scene
                 .polylines
-                .extend(body::edges(&map, middle, size, color, 2.6));
-            // Where it faces.
-            let front = (map * DVec3::Z).as_vec3() * size;
-            self.scene.polylines.push(Polyline {
-                points: vec![(middle, color), (middle + front, color)],
-                width: 4.0,
-                opacity: 1.0,
-            });
+                .extend(body::edges(&map, middle, size, color, 1.8));
+            // Where it faces, and where its crown is.
+            for (axis, width, ball) in [(DVec3::Z, 4.5, 0.05), (DVec3::Y, 2.2, 0.03)] {
+                let tip = middle + (map * axis).as_vec3() * size;
+                self.line(&[middle, tip], color, width);
+                let dot = body::ball(tip, ball * size, color, 1.0, 12);
+                self.scene.models.push(dot);
+            }
         }
     }
 
@@ -149,7 +166,6 @@ impl Stage<'_> {
             return;
         };
         let (middle, radius) = self.middle_and_size(cell);
-        let radius = 0.98 * radius;
         let ground = self.theme.ground;
         self.scene
             .models

@@ -183,8 +183,8 @@ fn joint_row(
         let share = if most > 0.0 { error.mean_deg / most } else { 0.0 };
         let fill = warmth(share, &palette);
         ui.painter().rect_filled(place, 2.0, fill);
-        if cell >= 30.0 {
-            let font = FontId::proportional(10.5);
+        if cell >= 26.0 {
+            let font = FontId::proportional(10.0);
             let ink = ink_on(fill);
             let text = fixed(error.max_deg, 1);
             ui.painter()
