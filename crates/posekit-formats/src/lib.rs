@@ -15,6 +15,7 @@ pub mod report;
 pub mod scene;
 pub mod urdf;
 mod warning_code;
+pub mod ways;
 
 /// Runs the examples of `docs/library.md` as doctests.
 #[cfg(doctest)]

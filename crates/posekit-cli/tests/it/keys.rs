@@ -234,7 +234,7 @@ fn in_betweens_are_compared_and_written() {
     );
 }
 
-/// `tools/inbetween_reference.py`: SciPy's Slerp and numpy.interp over the file's own channels.
+/// `tools/inbetween_reference.py`: every method written anew with NumPy and SciPy.
 #[test]
 fn in_betweens_are_those_of_scipy() {
     let has_scipy = Command::new("python3")
@@ -260,7 +260,7 @@ fn in_betweens_are_those_of_scipy() {
             "--keep",
             "10",
             "--method",
-            "slerp,euler",
+            "slerp,nlerp,lerp,matrix,rotvec,euler,euler:ZYX,squad",
             "--report=compared",
         ]);
         let output = Command::new("python3")

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use posekit::motion::Channel;
+use posekit::rotation::EulerOrder;
 
 /// A BVH file: a hierarchy of joints and, usually, frames of channel values.
 ///
@@ -95,6 +96,22 @@ impl Bvh {
     /// How many values a frame has: the channels of all joints.
     pub fn channel_count(&self) -> usize {
         self.joints.iter().map(|joint| joint.channels.len()).sum()
+    }
+
+    /// The order of each joint's rotation channels; of a joint with more than three of them, ZXY.
+    pub fn rotation_orders(&self) -> Vec<EulerOrder> {
+        let order = |joint: &BvhJoint| {
+            let axes: Vec<_> = joint
+                .channels
+                .iter()
+                .filter_map(|channel| match channel {
+                    Channel::Rotation(axis) => Some(*axis),
+                    Channel::Position(_) => None,
+                })
+                .collect();
+            EulerOrder::new(&axes).unwrap_or(EulerOrder::ZXY)
+        };
+        self.joints.iter().map(order).collect()
     }
 
     /// How many frames there are; 0 without motion.

@@ -25,7 +25,7 @@ const PICTURE_SIZE: (u32, u32) = (1920, 1080);
 impl Viewer {
     /// Does what a command says.
     pub(super) fn run(&mut self, ctx: &egui::Context, command: Command) {
-        if self.run_in_lab(ctx, command) {
+        if self.run_in_lab(ctx, command) || self.run_in_interpolation(ctx, command) {
             return;
         }
         if self.run_in_animate(ctx, command) {

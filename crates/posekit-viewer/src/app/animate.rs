@@ -49,7 +49,7 @@ impl Viewer {
 
     /// Where keys are pressed.
     pub(super) fn place_of_keys(&self, ui: &Ui) -> Place {
-        if self.session.mode() == Mode::Lab || self.session.authored().is_none() {
+        if self.session.mode().is_lab() || self.session.authored().is_none() {
             return Place::Anywhere;
         }
         let pointer = ui.input(|i| i.pointer.hover_pos());

@@ -54,6 +54,9 @@ impl Viewer {
                 }
                 Event::Poses { name, poses } => self.take_poses(&name, poses, now),
                 Event::Robot(robot) => self.take_robot(*robot, now),
+                Event::FilledIn(filled) => {
+                    self.interpolation.clip.take(filled.map(|filled| *filled))
+                }
                 Event::Failed { message } => {
                     self.notices.add(NoticeKind::Failure, message, now);
                 }

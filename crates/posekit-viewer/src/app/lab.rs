@@ -8,6 +8,7 @@ use crate::command::{Command, apply_to_camera};
 use crate::gizmo::Tool;
 use crate::panels::{Asked, arm_lab};
 use crate::state::arm::Robot;
+use crate::state::interpolation::Page;
 use crate::state::mode::{Mode, Space};
 use crate::state::notices::NoticeKind;
 use crate::work::files;
@@ -39,10 +40,14 @@ impl Viewer {
         self.session.set_mode(Mode::Lab);
     }
 
-    /// What is seen: the stage, or the bench.
+    /// What is seen: the stage, or what is in a lab.
     pub(super) fn seen(&self) -> Scene {
         match self.session.mode() {
             Mode::Lab => self.lab.scene(self.session.look()),
+            Mode::Interpolation => match self.interpolation.page() {
+                Page::Orientations => self.interpolation.scene(self.session.look()),
+                Page::Clip => self.interpolation.clip.scene(),
+            },
             _ => self.session.scene(),
         }
     }

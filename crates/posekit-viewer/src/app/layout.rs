@@ -33,7 +33,7 @@ impl Viewer {
                 .extend(pressed.into_iter().filter(|c| *c == Command::ToggleHelp));
             return;
         }
-        if self.take_keys_in_lab(ui) {
+        if self.take_keys_in_lab(ui) || self.take_keys_in_interpolation(ui) {
             return;
         }
         if self.take_keys_of_timeline(ui) || self.take_keys_of_poses(ui) {
@@ -72,6 +72,10 @@ impl Viewer {
             .show(ui, |ui| top_bar::show(ui, &mut self.session, sides, asked));
         if self.session.mode() == Mode::Lab {
             self.show_lab(ui, asked);
+            return;
+        }
+        if self.session.mode() == Mode::Interpolation {
+            self.show_interpolation(ui, asked);
             return;
         }
         Panel::bottom("transport")
@@ -159,7 +163,7 @@ impl Viewer {
             let place = Rect::from_center_size(room.center(), Vec2::new(130.0, 30.0));
             row::text_in(ui, place, text, palette.text);
         }
-        let is_stage = self.session.mode() != Mode::Lab;
+        let is_stage = !self.session.mode().is_lab();
         if is_stage && self.session.clips().is_empty() && self.loader.jobs().is_empty() && !hovering
         {
             let text = RichText::new("Drop a BVH file or a scene here, or open one with Ctrl+O")

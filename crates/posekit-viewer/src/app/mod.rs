@@ -3,6 +3,7 @@
 mod act;
 mod animate;
 mod events;
+mod interpolation;
 mod lab;
 mod layout;
 mod poses;
@@ -21,6 +22,7 @@ use crate::panels::Asked;
 use crate::panels::arm_lab::LabPanel;
 use crate::panels::curves::CurvePanel;
 use crate::panels::export::ExportWindow;
+use crate::panels::interpolation::InterpolationPanel;
 use crate::panels::joints::JointTree;
 use crate::panels::library::Preview;
 use crate::panels::pose_library::PosePanel;
@@ -32,6 +34,7 @@ use crate::picture::{Texture, to_color_image};
 use crate::state::animate::pose_library::PoseLibrary;
 use crate::state::arm::ArmLab;
 use crate::state::clip::Clip;
+use crate::state::interpolation::InterpolationLab;
 use crate::state::library::Library;
 use crate::state::notices::Notices;
 use crate::state::session::{ClipId, Session};
@@ -68,6 +71,8 @@ pub struct Viewer {
     session: Session,
     lab: ArmLab,
     lab_panel: LabPanel,
+    interpolation: InterpolationLab,
+    interpolation_panel: InterpolationPanel,
     loader: Loader,
     painter: Painter,
     library: Library<Preview>,
@@ -125,6 +130,8 @@ impl Viewer {
             session,
             lab: ArmLab::default(),
             lab_panel: LabPanel::default(),
+            interpolation: InterpolationLab::default(),
+            interpolation_panel: InterpolationPanel::default(),
             loader,
             painter: Painter::new(ctx, graphics, options.renderer),
             library: Library::default(),
@@ -261,6 +268,17 @@ impl Viewer {
         &mut self.lab
     }
 
+    /// The interpolation lab, to look at.
+    #[must_use]
+    pub fn interpolation(&self) -> &InterpolationLab {
+        &self.interpolation
+    }
+
+    /// The interpolation lab, to change.
+    pub fn interpolation_mut(&mut self) -> &mut InterpolationLab {
+        &mut self.interpolation
+    }
+
     /// Whether something is being read, checked or looked at.
     #[must_use]
     pub fn is_working(&self) -> bool {
@@ -354,11 +372,13 @@ impl Viewer {
     /// Moves the clip's clock by what passed since the last time.
     fn tick(&mut self, ctx: &egui::Context) {
         let now = ctx.input(|i| i.time);
-        if self.session.transport.is_playing() {
+        if self.session.transport.is_playing() || self.plays_in_interpolation() {
             let passed = self.last_tick_secs.map_or(0.0, |before| now - before);
-            self.session
-                .transport
-                .advance(passed.min(LONGEST_STEP_SECS));
+            let passed = passed.min(LONGEST_STEP_SECS);
+            self.session.transport.advance(passed);
+            if self.plays_in_interpolation() {
+                self.tick_interpolation(passed);
+            }
             self.last_tick_secs = Some(now);
         } else {
             self.last_tick_secs = None;
@@ -371,7 +391,8 @@ impl Viewer {
         reason = "seconds until a notice goes; a fraction of them is enough"
     )]
     fn plan_repaint(&mut self, ctx: &egui::Context) {
-        if self.session.transport.is_playing() && !self.painter.is_busy() {
+        let plays = self.session.transport.is_playing() || self.plays_in_interpolation();
+        if plays && !self.painter.is_busy() {
             ctx.request_repaint();
         }
         if let Some(secs) = self.notices.tick(ctx.input(|i| i.time)) {

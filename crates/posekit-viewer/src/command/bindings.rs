@@ -409,6 +409,13 @@ pub const BINDINGS: &[Binding] = &[
         Group::Edit,
         "Mode: robot arm lab",
     ),
+    bind(
+        Command::Mode(Mode::Interpolation),
+        SHIFT,
+        Key::B,
+        Group::Edit,
+        "Mode: interpolation lab",
+    ),
     bind(Command::Undo, CTRL, Key::Z, Group::Edit, "Undo"),
     bind(
         Command::Redo,

@@ -19,6 +19,7 @@ use posekit::check::Finding;
 use crate::state::animate::Authored;
 use crate::state::arm::Robot;
 use crate::state::clip::Clip;
+use crate::state::interpolation::clip::{FillJob, Filled};
 use crate::state::session::ClipId;
 use crate::work::autosave::Kept;
 
@@ -143,6 +144,8 @@ pub enum Event {
         /// The poses.
         poses: Vec<posekit_formats::poses::SavedPose>,
     },
+    /// A clip's frames were filled in by a method; `None` where nothing can be kept.
+    FilledIn(Option<Box<Filled>>),
     /// Something could not be done.
     Failed {
         /// What, and why, for people.
@@ -363,6 +366,14 @@ impl Loader {
         thread::start(move || {
             let findings = crate::state::clip::check(&clip);
             outbox.send(Event::Checked { clip: id, findings });
+        });
+    }
+
+    /// Starts filling in a clip's frames by a method.
+    pub fn fill_in(&mut self, job: FillJob) {
+        let outbox = self.outbox.clone();
+        thread::start(move || {
+            outbox.send(Event::FilledIn(job.run().map(Box::new)));
         });
     }
 

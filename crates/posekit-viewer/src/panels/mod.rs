@@ -8,6 +8,7 @@ pub mod export;
 pub mod help;
 pub mod ik;
 pub mod inspector;
+pub mod interpolation;
 pub mod joints;
 pub mod library;
 pub mod notices;

@@ -42,7 +42,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, sides: Sides, asked: &mut Asked)
         }
         file_menu(ui, session, asked);
         view_menu(ui, session, asked);
-        if session.mode() != Mode::Lab {
+        if !session.mode().is_lab() {
             style_choice(ui, session);
             figure_menu(ui, session, asked);
             rest_button(ui, session, asked);
@@ -116,7 +116,7 @@ fn file_menu(ui: &mut Ui, session: &Session, asked: &mut Asked) {
             item(ui, "Open a folder\u{2026}", Command::OpenFolder, asked);
         }
         ui.separator();
-        if session.authored().is_some() && session.mode() != Mode::Lab {
+        if session.authored().is_some() && !session.mode().is_lab() {
             item(ui, "Save the scene", Command::SaveScene, asked);
             item(ui, "Save the scene as\u{2026}", Command::SaveSceneAs, asked);
         }
@@ -154,7 +154,7 @@ fn view_menu(ui: &mut Ui, session: &mut Session, asked: &mut Asked) {
             asked,
         );
         let parallel = session.camera.is_orthographic();
-        let says = if session.mode() == Mode::Lab {
+        let says = if session.mode().is_lab() {
             "Perspective or parallel rays"
         } else if parallel {
             "Perspective"
@@ -162,7 +162,7 @@ fn view_menu(ui: &mut Ui, session: &mut Session, asked: &mut Asked) {
             "Parallel rays"
         };
         item(ui, says, Command::ToggleProjection, asked);
-        if session.mode() == Mode::Lab {
+        if session.mode().is_lab() {
             return;
         }
         ui.separator();

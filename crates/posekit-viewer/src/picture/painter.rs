@@ -39,6 +39,10 @@ pub enum Place {
     Stage,
     /// The bench of the arm lab.
     Bench,
+    /// The bodies of the interpolation lab.
+    Orientations,
+    /// The figures of the interpolation lab.
+    FilledClip,
 }
 
 /// What a picture is of. The closures are called only when one is to be drawn.

@@ -8,6 +8,7 @@ pub mod curves;
 pub mod display;
 pub mod edit;
 pub mod ik;
+pub mod interpolation;
 pub mod library;
 pub mod mode;
 pub mod notices;

@@ -19,11 +19,20 @@ pub enum Mode {
     Animate,
     /// Robot arms on a bench of their own.
     Lab,
+    /// Ways between orientations, side by side.
+    Interpolation,
 }
 
 impl Mode {
     /// All modes, in the order in which they are offered.
-    pub const ALL: [Self; 5] = [Self::View, Self::Pose, Self::Ik, Self::Animate, Self::Lab];
+    pub const ALL: [Self; 6] = [
+        Self::View,
+        Self::Pose,
+        Self::Ik,
+        Self::Animate,
+        Self::Lab,
+        Self::Interpolation,
+    ];
 
     /// The name shown.
     #[must_use]
@@ -34,6 +43,7 @@ impl Mode {
             Self::Ik => "IK",
             Self::Animate => "Animate",
             Self::Lab => "Arm lab",
+            Self::Interpolation => "Interpolation lab",
         }
     }
 
@@ -46,6 +56,7 @@ impl Mode {
             Self::Ik => "Drag hands and feet; the body follows",
             Self::Animate => "Make motion with keys: poses, and curves between them",
             Self::Lab => "Robot arms: joints, tips, and the numbers behind them",
+            Self::Interpolation => "The ways between orientations, and why slerp is the right one",
         }
     }
 
@@ -53,10 +64,16 @@ impl Mode {
     #[must_use]
     pub const fn hint(self) -> &'static str {
         match self {
-            Self::View | Self::Lab => "",
+            Self::View | Self::Lab | Self::Interpolation => "",
             Self::Pose | Self::Animate => "Click a bone, drag its rings",
             Self::Ik => "Click a dot, drag its arrows",
         }
+    }
+
+    /// Whether it is a room of its own, in which the clips are not on the stage.
+    #[must_use]
+    pub const fn is_lab(self) -> bool {
+        matches!(self, Self::Lab | Self::Interpolation)
     }
 
     /// Whether poses of clips are changed in it.

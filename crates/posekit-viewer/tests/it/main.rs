@@ -9,6 +9,7 @@ mod clips;
 mod comparing;
 mod editing;
 mod graph;
+mod interpolation;
 mod limbs;
 mod numbers;
 mod pictures;

@@ -78,6 +78,8 @@ pub struct Between(Prepared);
 #[derive(Clone, Debug)]
 enum Prepared {
     Slerp([DQuat; 2]),
+    /// The start, and the rotation vector of the way in its own space, up to a whole turn long.
+    RawSlerp(DQuat, DVec3),
     Nlerp([DQuat; 2]),
     RawLerp([DQuat; 2]),
     Matrix([DMat3; 2]),
@@ -92,6 +94,9 @@ impl Between {
         let pair = [ends.start, ends.end];
         Self(match method {
             Method::Slerp => Prepared::Slerp(pair),
+            Method::RawSlerp => {
+                Prepared::RawSlerp(ends.start, way_as_given(ends.start.conjugate() * ends.end))
+            }
             Method::Nlerp => Prepared::Nlerp(pair),
             Method::RawLerp => {
                 let end = if ends.start.dot(ends.end) < 0.0 {
@@ -148,6 +153,7 @@ impl Between {
     pub fn rotation_at(&self, t: f64) -> DQuat {
         match &self.0 {
             Prepared::Slerp([start, end]) => slerp(*start, *end, t),
+            Prepared::RawSlerp(start, way) => *start * exp(*way * t),
             Prepared::Nlerp([start, end]) | Prepared::RawLerp([start, end]) => {
                 nlerp(*start, *end, t)
             }
@@ -164,6 +170,14 @@ impl Between {
             Prepared::Squad(None, [start, end]) => slerp(*start, *end, t),
         }
     }
+}
+
+/// The rotation vector of a quaternion whose sign counts: longer than half a turn where its scalar part
+/// is negative. A whole turn has no axis; X is as good as any.
+fn way_as_given(relative: DQuat) -> DVec3 {
+    let vector = relative.xyz();
+    let angle = 2.0 * libm::atan2(vector.length(), relative.w);
+    vector.try_normalize().unwrap_or(DVec3::X) * angle
 }
 
 /// A track of the ends at 0 and 1 and the keys around them at -1 and 2.

@@ -39,6 +39,14 @@ pub struct FillError {
 }
 
 impl FillError {
+    /// The joint that strays the farthest at any frame, the first of several; `None` where nothing turns.
+    #[must_use]
+    pub fn worst(&self) -> Option<&JointError> {
+        self.joints
+            .iter()
+            .reduce(|a, b| if b.max_deg > a.max_deg { b } else { a })
+    }
+
     /// Compares two motions of one skeleton at these frames. Without frames or joints that turn, all
     /// errors are 0.
     ///

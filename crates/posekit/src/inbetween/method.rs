@@ -11,6 +11,9 @@ use crate::rotation::{EulerOrder, EulerOrderError};
 pub enum Method {
     /// `R1 exp(t log(R1^T R2))`: constant speed along the shortest way.
     Slerp,
+    /// Slerp between the quaternions as they are given: the long way round where they lie more than half a
+    /// turn apart, which is where the sign of one of them differs.
+    RawSlerp,
     /// The chord between the quaternions, normalised.
     Nlerp,
     /// The chord between the quaternions, used as it is: it scales.
@@ -31,7 +34,7 @@ pub enum Method {
 pub enum MethodError {
     /// Nobody knows it.
     #[error(
-        "`{word}` is no method: slerp, nlerp, lerp, matrix, rotvec, squad, or euler: and an order \
+        "`{word}` is no method: slerp, rawslerp, nlerp, lerp, matrix, rotvec, squad, or euler: and an order \
          such as euler:ZXY"
     )]
     Unknown {
@@ -50,9 +53,16 @@ pub enum MethodError {
 }
 
 impl Method {
+    /// Whether what it makes in between is a rotation; the others are measured on the nearest one.
+    #[must_use]
+    pub const fn makes_rotations(self) -> bool {
+        !matches!(self, Self::RawLerp | Self::Matrix)
+    }
+
     /// One of each, the Euler angles in the six orders of three different axes.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Slerp,
+        Self::RawSlerp,
         Self::Nlerp,
         Self::RawLerp,
         Self::Matrix,
@@ -72,6 +82,7 @@ impl fmt::Display for Method {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Slerp => f.write_str("slerp"),
+            Self::RawSlerp => f.write_str("rawslerp"),
             Self::Nlerp => f.write_str("nlerp"),
             Self::RawLerp => f.write_str("lerp"),
             Self::Matrix => f.write_str("matrix"),

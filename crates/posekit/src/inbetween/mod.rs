@@ -19,11 +19,15 @@
 mod between;
 mod error;
 mod fill;
+mod fill_method;
 mod method;
 mod path;
+mod preset;
 
 pub use between::{Between, Blend, Ends};
 pub use error::{FillError, JointError};
 pub use fill::{FillConfigError, FillPlan, fill};
+pub use fill_method::FillMethod;
 pub use method::{Method, MethodError};
 pub use path::{PathStep, path};
+pub use preset::Preset;

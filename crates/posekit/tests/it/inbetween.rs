@@ -1,9 +1,11 @@
-//! Ways between orientations against what theory says of them, and filled-in motions.
+//! Ways between orientations against what theory and other programs say of them, and filled-in motions.
 
 use std::f64::consts::PI;
 
 use glam::{DMat3, DQuat, DVec3};
-use posekit::inbetween::{Between, Ends, FillConfigError, FillError, FillPlan, Method, fill, path};
+use posekit::inbetween::{
+    Between, Ends, FillConfigError, FillError, FillPlan, Method, Preset, fill, path,
+};
 use posekit::rotation::{EulerOrder, angle_between, exp, slerp};
 use posekit::sample;
 use proptest::prelude::*;
@@ -119,7 +121,11 @@ fn kept_frames_stay_and_others_are_filled() {
     let walk = sample::by_name("walk").unwrap();
     let plan = FillPlan::every(10, walk.frame_count()).unwrap();
     assert_eq!(plan.kept().last(), Some(&(walk.frame_count() - 1)));
-    for method in Method::ALL {
+    // The signs of a motion's quaternions mean nothing: slerp that looks at them goes anywhere.
+    for method in Method::ALL
+        .into_iter()
+        .filter(|method| *method != Method::RawSlerp)
+    {
         let filled = fill(&walk, &plan, |_| method);
         assert_eq!(filled.frame_count(), walk.frame_count());
         let kept = FillError::between(&walk, &filled, plan.kept());
@@ -182,4 +188,82 @@ fn keys_can_be_given_another_spacing() {
         filled.rotation(walk.frame_count() - 1, joint),
         filled.rotation(60, joint)
     );
+}
+
+#[derive(serde::Deserialize)]
+struct Golden {
+    times: Vec<f64>,
+    cases: Vec<GoldenCase>,
+}
+
+#[derive(serde::Deserialize)]
+struct GoldenCase {
+    start: [f64; 4],
+    end: [f64; 4],
+    before: Option<[f64; 4]>,
+    after: Option<[f64; 4]>,
+    /// By the method's word: its matrix at each time, row by row.
+    ways: std::collections::BTreeMap<String, Vec<[f64; 9]>>,
+}
+
+/// `golden/make_inbetween.py`: every method written anew with NumPy and SciPy.
+#[test]
+fn every_way_is_that_of_an_independent_implementation() {
+    let text = include_str!("../golden/inbetween.json");
+    let golden: Golden = serde_json::from_str(text).unwrap();
+    let mut compared = std::collections::BTreeMap::new();
+    for case in &golden.cases {
+        let ends = Ends {
+            start: DQuat::from_array(case.start),
+            end: DQuat::from_array(case.end),
+            before: case.before.map(DQuat::from_array),
+            after: case.after.map(DQuat::from_array),
+        };
+        for (word, matrices) in &case.ways {
+            let method: Method = word.parse().unwrap();
+            let way = Between::new(method, &ends);
+            for (&t, rows) in golden.times.iter().zip(matrices) {
+                let expected = DMat3::from_cols_array(rows).transpose();
+                let found = way.at(t).matrix;
+                let gap = (found - expected).to_cols_array();
+                let most = gap
+                    .iter()
+                    .fold(0.0_f64, |most, entry| most.max(entry.abs()));
+                assert!(most < 1e-10, "{word} at {t}: {most:e}");
+            }
+            *compared.entry(word.clone()).or_insert(0) += 1;
+        }
+    }
+    assert_eq!(compared.len(), Method::ALL.len(), "{compared:?}");
+    assert!(compared.values().all(|&count| count >= 15), "{compared:?}");
+}
+
+#[test]
+fn slerp_that_looks_at_no_sign_goes_as_far_as_was_said() {
+    for angle in [10_f64, 170.0, 190.0, 300.0, 359.0, 360.0] {
+        let end = EulerOrder::XYZ.to_quat([0.0, angle.to_radians(), 0.0]);
+        let ends = Ends::new(DQuat::IDENTITY, end);
+        for step in path(Method::RawSlerp, &ends, 8) {
+            assert!((step.speed_deg - angle).abs() < 1e-5, "{angle}");
+        }
+        let short = angle.min(360.0 - angle);
+        let slerp = path(Method::Slerp, &ends, 8);
+        assert!(
+            slerp
+                .iter()
+                .all(|step| (step.speed_deg - short).abs() < 1e-5)
+        );
+    }
+}
+
+#[test]
+fn presets_have_names_and_keys() {
+    for preset in Preset::ALL {
+        assert_eq!(Preset::by_name(preset.name()), Some(preset));
+        let keys = preset.keys();
+        assert!(keys.len() >= 2 && preset.gap() + 1 < keys.len());
+        assert!(keys.iter().all(|key| (key.length() - 1.0).abs() < 1e-12));
+        assert!(!preset.title().is_empty() && preset.says().ends_with('.'));
+    }
+    assert_eq!(Preset::by_name("none"), None);
 }

@@ -2,10 +2,9 @@
 
 use std::io::Write;
 
-use posekit::inbetween::{FillError, FillPlan};
+use posekit::inbetween::{FillError, FillMethod, FillPlan};
 use posekit::motion::Motion;
 
-use super::MethodArg;
 use crate::console;
 use crate::failure::Failure;
 use crate::text::{Align, Table, counted, fixed};
@@ -25,16 +24,16 @@ pub(super) struct Comparison {
     /// The skeleton's height, in the file's unit.
     pub(super) height: f64,
     /// The methods with their errors.
-    pub(super) methods: Vec<(MethodArg, FillError)>,
+    pub(super) methods: Vec<(FillMethod, FillError)>,
 }
 
 impl Comparison {
     pub(super) fn new(
         motion: &Motion,
         plan: &FillPlan,
-        methods: &[MethodArg],
+        methods: &[FillMethod],
         name: String,
-        fill: impl Fn(MethodArg) -> Motion,
+        fill: impl Fn(FillMethod) -> Motion,
     ) -> Self {
         let filled = plan.filled();
         let skeleton = motion.skeleton();

@@ -6,12 +6,10 @@ mod html;
 mod report;
 
 use std::ffi::OsString;
-use std::fmt;
 use std::path::PathBuf;
-use std::str::FromStr;
 
 use clap::Args;
-use posekit::inbetween::{FillPlan, Method, fill};
+use posekit::inbetween::{FillMethod, FillPlan, MethodError, fill};
 use posekit::motion::Motion;
 use posekit::rotation::EulerOrder;
 use posekit_formats::bvh::{Bvh, WriteOptions, write_to};
@@ -52,14 +50,15 @@ pub(crate) struct InbetweenArgs {
     /// Put the kept frames so many frames apart: a new timing, which has no truth to compare with
     #[arg(long, value_name = "N", conflicts_with = "report")]
     frames: Option<usize>,
-    /// slerp, nlerp, lerp, matrix, rotvec, squad, euler (each joint in the file's own order), euler:ORDER
+    /// slerp, rawslerp, nlerp, lerp, matrix, rotvec, squad, euler (each joint in the file's own order), euler:ORDER
     #[arg(
         long,
         value_name = "METHODS",
         value_delimiter = ',',
+        value_parser = method_arg,
         default_value = "slerp,nlerp,matrix,rotvec,euler,squad"
     )]
-    method: Vec<MethodArg>,
+    method: Vec<FillMethod>,
     /// Write the comparison to NAME.html, NAME.md and NAME.csv [default NAME: the file's, -inbetween]
     #[arg(long, value_name = "NAME", num_args = 0..=1, require_equals = true, default_missing_value = "")]
     report: Option<PathBuf>,
@@ -79,38 +78,12 @@ Examples:
   posekit inbetween walk.bvh --keep 10 --method squad -o filled.bvh
   posekit inbetween walk.bvh --at 0,30,60,90 --frames 60 --method squad -o slow.bvh";
 
-/// A method, or the file's own Euler orders.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum MethodArg {
-    /// The same for all joints.
-    Same(Method),
-    /// Euler angles, each joint's in the order of its channels.
-    FileEuler,
-}
-
-impl FromStr for MethodArg {
-    type Err = String;
-
-    fn from_str(word: &str) -> Result<Self, String> {
-        if word == "euler" {
-            return Ok(Self::FileEuler);
-        }
-        word.parse().map(Self::Same).map_err(|error| match error {
-            posekit::inbetween::MethodError::Unknown { .. } => {
-                format!("{error}, or euler for the file's own orders")
-            }
-            other => other.to_string(),
-        })
-    }
-}
-
-impl fmt::Display for MethodArg {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Same(method) => method.fmt(f),
-            Self::FileEuler => f.write_str("euler"),
-        }
-    }
+/// A method by its word, or what to say of a word that is none.
+fn method_arg(word: &str) -> Result<FillMethod, String> {
+    word.parse().map_err(|error| match error {
+        MethodError::Unknown { .. } => format!("{error}, or euler for the file's own orders"),
+        other => other.to_string(),
+    })
 }
 
 /// Runs the command.
@@ -131,15 +104,10 @@ pub(crate) fn run(args: &InbetweenArgs, global: &Global) -> Result<(), Failure> 
             .iter()
             .for_each(|repair| console::warning(repair));
     }
-    let orders = channel_orders(&loaded.bvh);
+    let orders = loaded.bvh.rotation_orders();
     let motion = loaded.motion(args.root_offset.policy()).map_err(in_file)?;
     let plan = plan(args, &motion).map_err(in_file)?;
-    let filled = |method: MethodArg| {
-        fill(&motion, &plan, |joint| match method {
-            MethodArg::Same(method) => method,
-            MethodArg::FileEuler => Method::Euler(orders[joint.index()]),
-        })
-    };
+    let filled = |method: FillMethod| fill(&motion, &plan, |joint| method.of(joint, &orders));
     if let Some(output) = &args.output {
         let method = args.method[0];
         write_motion(
@@ -183,27 +151,11 @@ fn plan(args: &InbetweenArgs, motion: &Motion) -> Result<FillPlan, Failure> {
     }
 }
 
-/// The order of each joint's rotation channels; of a joint with four of them or more, the usual one.
-fn channel_orders(bvh: &Bvh) -> Vec<EulerOrder> {
-    let order = |joint: &posekit_formats::bvh::BvhJoint| {
-        let axes: Vec<_> = joint
-            .channels
-            .iter()
-            .filter_map(|channel| match channel {
-                posekit::motion::Channel::Rotation(axis) => Some(*axis),
-                posekit::motion::Channel::Position(_) => None,
-            })
-            .collect();
-        EulerOrder::new(&axes).unwrap_or(EulerOrder::ZXY)
-    };
-    bvh.joints.iter().map(order).collect()
-}
-
 fn write_motion(
     output: &OsString,
     input: &Input,
     motion: &Motion,
-    method: MethodArg,
+    method: FillMethod,
     method_count: usize,
     global: &Global,
 ) -> Result<(), Failure> {

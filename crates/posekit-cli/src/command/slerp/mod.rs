@@ -1,15 +1,14 @@
 //! `posekit slerp`: the ways from one orientation to another, side by side.
 
 mod orientation;
-mod preset;
 mod tables;
 
 use clap::Args;
-use posekit::inbetween::{Ends, Method};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use posekit::inbetween::{Ends, Method, Preset};
 use posekit::rotation::EulerOrder;
 
 use crate::failure::Failure;
-use preset::Preset;
 
 /// Compare the ways from one orientation to another: slerp, matrices, quaternions, Euler angles
 ///
@@ -35,7 +34,7 @@ pub(crate) struct SlerpArgs {
     )]
     end: Option<String>,
     /// Two orientations that show something
-    #[arg(long, value_name = "NAME", conflicts_with_all = ["start", "end"])]
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["start", "end"], value_parser = preset_arg())]
     preset: Option<Preset>,
     /// The order of the angles that are given
     #[arg(long, value_name = "ORDER", default_value = "XYZ")]
@@ -46,7 +45,7 @@ pub(crate) struct SlerpArgs {
     /// The key after the end, for squad
     #[arg(long, value_name = "ORIENTATION", allow_hyphen_values = true)]
     after: Option<String>,
-    /// The methods: slerp, nlerp, lerp, matrix, rotvec, squad, euler:ORDER [default: all]
+    /// The methods: slerp, rawslerp, nlerp, lerp, matrix, rotvec, squad, euler:ORDER [default: all]
     #[arg(long, value_name = "METHODS", value_delimiter = ',')]
     method: Vec<Method>,
     /// How many steps the tables have
@@ -63,14 +62,14 @@ Examples:
   posekit slerp --preset gimbal                   where Euler angles jerk
   posekit slerp --preset half-turn --method slerp,matrix
   posekit slerp 0,0,0,1 0,0.7071,0,0.7071 --steps 100 --csv
-  posekit slerp 0,0,0 0,90,0 --before 0,-90,0 --after 90,90,0 --method slerp,squad
+  posekit slerp 0,0,0 0,90,0 --before 0,-90,0 --after 90,90,0 --method slerp,squad";
 
-Presets:
-  gimbal       40 degrees at a pitch of 89, about the axis that is lost there: Euler angles swing about
-  gimbal-far   the same by 120 degrees
-  quarter      a quarter turn about an axis askew
-  half-turn    nearly half a turn: matrices collapse, the chord hurries through the middle
-  long-way     quaternions of opposite sign: those who do not look go the long way round";
+/// The presets by their names, each with what it is.
+fn preset_arg() -> impl TypedValueParser<Value = Preset> {
+    let values = Preset::ALL.map(|preset| PossibleValue::new(preset.name()).help(preset.title()));
+    PossibleValuesParser::new(values)
+        .try_map(|name| Preset::by_name(&name).ok_or("no preset has this name"))
+}
 
 /// Runs the command.
 pub(crate) fn run(args: &SlerpArgs) -> Result<(), Failure> {

@@ -4,6 +4,7 @@ use std::io::Write;
 
 use posekit::inbetween::{Ends, Method, PathStep, path};
 use posekit::rotation::angle_between;
+use posekit_formats::ways;
 
 use crate::console::{self, HEADING, styled};
 use crate::failure::Failure;
@@ -91,25 +92,6 @@ pub(super) fn print(ends: &Ends, methods: &[Method], steps: usize) -> Result<(),
 /// One row for each method and step.
 pub(super) fn csv(ends: &Ends, methods: &[Method], steps: usize) -> Result<(), Failure> {
     let mut out = console::stdout();
-    writeln!(
-        out,
-        "method,t,x,y,z,w,deviation_deg,speed_deg,determinant,shear_deg,\
-         m00,m01,m02,m10,m11,m12,m20,m21,m22"
-    )?;
-    for &method in methods {
-        for step in path(method, ends, steps) {
-            let numbers = step.rotation.to_array();
-            let measures = [
-                step.deviation_deg,
-                step.speed_deg,
-                step.blend.determinant(),
-                step.blend.shear_deg(),
-            ];
-            let matrix = step.blend.matrix.transpose().to_cols_array();
-            let numbers = numbers.iter().chain(&measures).chain(&matrix);
-            let text: Vec<String> = numbers.map(ToString::to_string).collect();
-            writeln!(out, "{method},{},{}", step.t, text.join(","))?;
-        }
-    }
+    write!(out, "{}", ways::csv(ends, methods, steps))?;
     Ok(out.flush()?)
 }

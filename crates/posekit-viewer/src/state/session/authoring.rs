@@ -216,7 +216,7 @@ impl Session {
     #[must_use]
     pub fn handles(&self) -> Handles {
         match self.mode() {
-            Mode::View | Mode::Lab => Handles::None,
+            Mode::View | Mode::Lab | Mode::Interpolation => Handles::None,
             Mode::Animate if self.authored().is_none() => Handles::None,
             Mode::Animate if self.authoring.settings.uses_ik => Handles::Targets,
             Mode::Pose | Mode::Animate => Handles::Joints,

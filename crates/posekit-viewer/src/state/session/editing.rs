@@ -65,7 +65,7 @@ impl Session {
     pub fn set_mode(&mut self, mode: Mode) {
         self.stop_editing();
         self.editing.mode = mode;
-        if mode == Mode::Lab {
+        if mode.is_lab() {
             self.transport.pause();
         }
         if mode.edits() {

@@ -1,0 +1,114 @@
+//! The interpolation lab: start and end with what every method makes of the way between them, keys at the
+//! left, methods at the right, curves below; and the same methods on a real clip.
+
+mod clip;
+mod keys;
+mod methods;
+mod plots;
+mod strip;
+mod time;
+mod view;
+
+use egui::{CentralPanel, Color32, Frame, Margin, Panel, Rect, Ui};
+
+use super::Asked;
+use crate::picture::painter::Painter;
+use crate::state::display::Look;
+use crate::state::interpolation::{InterpolationLab, Page};
+
+pub use plots::Quantity;
+
+/// Under this width the right side does not open beside the left one.
+const NARROW: f32 = 900.0;
+
+/// Which sides are open.
+#[derive(Clone, Copy, Debug)]
+pub struct Sides {
+    /// The keys; the clip's choices.
+    pub left: bool,
+    /// The methods.
+    pub right: bool,
+}
+
+/// What the lab's panels remember.
+#[derive(Clone, Copy, Debug)]
+pub struct InterpolationPanel {
+    /// What the curves below the view are of, left and right.
+    pub plots: [Quantity; 2],
+    /// The curves are closed: more room for the view.
+    pub is_closed: bool,
+}
+
+impl Default for InterpolationPanel {
+    fn default() -> Self {
+        Self {
+            plots: [Quantity::Speed, Quantity::Deviation],
+            is_closed: false,
+        }
+    }
+}
+
+/// A colour of the lab's lists and curves.
+fn color(hex: u32) -> Color32 {
+    let [_, r, g, b] = hex.to_be_bytes();
+    Color32::from_rgb(r, g, b)
+}
+
+/// Shows the lab in all the room there is. Returns where the view is.
+pub fn show(
+    ui: &mut Ui,
+    (lab, panel, painter): (&mut InterpolationLab, &mut InterpolationPanel, &mut Painter),
+    (sides, look): (Sides, Look),
+    asked: &mut Asked,
+) -> Rect {
+    let page = lab.page();
+    let before = (lab.version(), lab.clip.version());
+    let is_narrow = ui.available_width() < NARROW;
+    let has_right = sides.right && !(is_narrow && sides.left);
+    let ground = Frame::NONE.fill(ui.visuals().panel_fill);
+    let side = ground.inner_margin(Margin::symmetric(10, 6));
+    lab.measure();
+    lab.clip.set_look(look);
+    if sides.left {
+        Panel::left("interpolation left")
+            .frame(side)
+            .resizable(true)
+            .default_size(268.0)
+            .size_range(240.0..=440.0)
+            .show(ui, |ui| match page {
+                Page::Orientations => keys::show(ui, lab),
+                Page::Clip => clip::choices::show(ui, lab),
+            });
+    }
+    if has_right {
+        Panel::right("interpolation right")
+            .frame(side)
+            .resizable(true)
+            .default_size(300.0)
+            .size_range(272.0..=520.0)
+            .show(ui, |ui| match page {
+                Page::Orientations => methods::show(ui, lab),
+                Page::Clip => clip::errors::show(ui, lab),
+            });
+    }
+    plots::show_below(ui, lab, panel, !has_right);
+    Panel::bottom("interpolation time")
+        .frame(ground.inner_margin(Margin::symmetric(10, 4)))
+        .resizable(false)
+        .exact_size(38.0)
+        .show(ui, |ui| time::show(ui, lab, asked));
+    // What was set above is measured before it is shown.
+    lab.measure();
+    let shown = CentralPanel::no_frame().show(ui, |ui| {
+        let rect = ui.available_rect_before_wrap();
+        match page {
+            Page::Orientations => view::show(ui, (&mut *lab, painter), look, asked),
+            Page::Clip => clip::view::show(ui, (&mut *lab, painter), look, asked),
+        }
+        rect
+    });
+    if (lab.version(), lab.clip.version()) != before {
+        ui.ctx().request_repaint();
+    }
+    shown.inner
+}
