@@ -330,6 +330,8 @@ fn keys_choose_tangents_and_interpolation_in_menus() {
     let mut window = graphing();
     let place = at(&window, dot(1, 0));
     click(&mut window, place);
+    window.hover_at(place);
+    window.step();
     press(&mut window, Modifiers::NONE, Key::V);
     window.run_steps(2);
     window.get_by_label("Broken").click();
@@ -361,8 +363,18 @@ fn a_double_click_on_a_curve_puts_a_key_there_and_x_takes_it_away() {
     let share = (value / 60.0) as f32;
     let place = Pos2::new(between, zero + (sixty - zero) * share);
     assert!(rect.contains(place));
-    click(&mut window, place);
-    click(&mut window, place);
+    window.hover_at(place);
+    window.step();
+    for _ in 0..2 {
+        window.drag_at(place);
+        window.event(egui::Event::PointerButton {
+            pos: place,
+            button: PointerButton::Primary,
+            pressed: false,
+            modifiers: Modifiers::NONE,
+        });
+    }
+    window.run_steps(3);
     assert_eq!(times(&window).len(), 4);
     assert!((times(&window)[1] - 0.5).abs() < 1e-6);
     assert!(
@@ -382,6 +394,7 @@ fn the_wheel_zooms_in_time_and_with_ctrl_in_value() {
     window.hover_at(place);
     window.step();
     let wheel = |window: &mut Window, modifiers: Modifiers| {
+        window.event(egui::Event::ModifiersChanged(modifiers));
         window.event(egui::Event::MouseWheel {
             unit: egui::MouseWheelUnit::Point,
             delta: vec2(0.0, 60.0),
@@ -390,6 +403,8 @@ fn the_wheel_zooms_in_time_and_with_ctrl_in_value() {
             source: egui::MouseWheelSource::Wheel,
         });
         window.run_steps(20);
+        window.event(egui::Event::ModifiersChanged(Modifiers::NONE));
+        window.step();
     };
     wheel(&mut window, Modifiers::NONE);
     let wider = apart(&window);

@@ -19,7 +19,7 @@ use crate::theme::{CURVES, Palette};
 const DOT: f32 = 4.0;
 
 /// Radius of a handle's.
-const HANDLE: f32 = 3.2;
+const HANDLE: f32 = 3.0;
 
 /// Of what is not selected while something else is.
 const FAINT: f32 = 0.4;
@@ -177,9 +177,9 @@ fn dots(canvas: &Painter, panel: &GraphPanel, plane: &Plane, palette: &Palette) 
         let fill = if held == Some(HoldKind::Handle(handle)) {
             palette.accent
         } else {
-            palette.raised
+            color
         };
-        canvas.circle(to, HANDLE, fill, Stroke::new(1.4, color));
+        canvas.circle_filled(to, HANDLE, fill);
     }
     let on_screen = plane.rect.expand(DOT);
     for dot in graph.dots() {
