@@ -17,7 +17,13 @@ pub(super) const ROW_HEIGHT: f32 = 20.0;
 pub(super) const MARK: f32 = 5.0;
 
 /// A row's ground.
-pub(super) fn ground(painter: &Painter, rect: Rect, row: &Row, is_selected: bool, palette: &Palette) {
+pub(super) fn ground(
+    painter: &Painter,
+    rect: Rect,
+    row: &Row,
+    is_selected: bool,
+    palette: &Palette,
+) {
     let fill = match row.kind {
         _ if is_selected => palette.accent_soft.gamma_multiply(0.6),
         Kind::Summary => palette.raised,
