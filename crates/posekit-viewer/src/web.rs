@@ -93,7 +93,7 @@ fn open_dialog(outbox: Outbox) -> Option<()> {
     let document = web_sys::window()?.document()?;
     let input: HtmlInputElement = document.create_element("input").ok()?.dyn_into().ok()?;
     input.set_type("file");
-    input.set_accept(".bvh,.urdf");
+    input.set_accept(".bvh,.urdf,.toml");
     input.set_multiple(true);
     let chosen = input.clone();
     let on_change = Closure::once_into_js(move || {
@@ -106,6 +106,39 @@ fn open_dialog(outbox: Outbox) -> Option<()> {
     input.set_onchange(Some(on_change.unchecked_ref()));
     input.click();
     Some(())
+}
+
+thread_local! {
+    /// What the browser calls before the page is left, once it was wanted.
+    static LEAVING: std::cell::OnceCell<js_sys::Function> = const { std::cell::OnceCell::new() };
+    static IS_ASKED: std::cell::Cell<bool> = const { std::cell::Cell::new(false) };
+}
+
+/// Lets the browser ask before the page is left, or no longer: something is in no file.
+pub(crate) fn ask_before_leaving(asks: bool) {
+    let Some(window) = web_sys::window() else {
+        return;
+    };
+    if IS_ASKED.replace(asks) == asks {
+        return;
+    }
+    if !asks {
+        window.set_onbeforeunload(None);
+        return;
+    }
+    LEAVING.with(|leaving| {
+        let handler = leaving.get_or_init(|| {
+            // Browsers ask when the event is given a value; what it says is not shown.
+            let set = |event: JsValue| {
+                let given = JsValue::from_str("not saved");
+                drop(js_sys::Reflect::set(&event, &"returnValue".into(), &given));
+            };
+            Closure::<dyn FnMut(JsValue)>::new(set)
+                .into_js_value()
+                .unchecked_into()
+        });
+        window.set_onbeforeunload(Some(handler));
+    });
 }
 
 /// Gives a file to the browser's downloads.

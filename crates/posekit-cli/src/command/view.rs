@@ -5,7 +5,6 @@ use std::io::{self, Read};
 use std::path::Path;
 
 use clap::Args;
-use posekit_formats::bvh::{WriteOptions, write_to};
 use posekit_formats::urdf;
 use posekit_viewer::load::Input as Opened;
 use posekit_viewer::{ViewerOptions, run_native};
@@ -36,6 +35,7 @@ Examples:
   posekit view walk.bvh
   posekit view takes/                   a folder: its clips are listed on the left
   posekit view before.bvh after.bvh     two, to compare
+  posekit view shot.posekit.toml        a scene, to go on animating
   posekit view arm.urdf                 a robot, in the arm lab
   posekit view sample:arm6              a six-axis arm
 
@@ -115,11 +115,8 @@ fn options(names: &[OsString]) -> Result<ViewerOptions, Failure> {
                     options.inputs.push(Opened::Bytes { name, bytes });
                 }
                 Source::Sample(sample) => {
-                    let mut bytes = Vec::new();
-                    write_to(&sample.document()?, WriteOptions::default(), &mut bytes)?;
-                    let name = format!("{}.bvh", sample.name());
-                    let bytes = bytes.into();
-                    options.inputs.push(Opened::Bytes { name, bytes });
+                    let name = sample.name().to_owned();
+                    options.inputs.push(Opened::Sample(name));
                 }
             }
         }

@@ -57,7 +57,7 @@ impl Viewer {
         match request {
             Request::Activate(id) => self.session.activate(id),
             Request::SetShown(id, shown) => self.session.set_shown(id, shown),
-            Request::Close(id) => self.close(id),
+            Request::Close(id) => self.close_or_ask(id),
             Request::OpenPath(path, beside) => {
                 let input = Input::Path(path);
                 if beside {

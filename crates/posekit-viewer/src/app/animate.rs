@@ -24,7 +24,7 @@ impl Viewer {
                     .inner_margin(Margin::symmetric(8, 6)),
             )
             .resizable(true)
-            .default_size(230.0)
+            .default_size(246.0)
             .size_range(120.0..=most)
             .show(ui, |ui| {
                 timeline::show(ui, &mut self.session, &mut self.timeline, asked);
@@ -48,7 +48,7 @@ impl Viewer {
 
     /// Where keys are pressed.
     pub(super) fn place_of_keys(&self, ui: &Ui) -> Place {
-        if self.session.mode() != Mode::Animate || self.session.authored().is_none() {
+        if self.session.mode() == Mode::Lab || self.session.authored().is_none() {
             return Place::Anywhere;
         }
         let pointer = ui.input(|i| i.pointer.hover_pos());
@@ -89,6 +89,8 @@ impl Viewer {
                     ctx.copy_text(text);
                 }
             }
+            Command::SaveScene => self.save_scene(ctx, false),
+            Command::SaveSceneAs => self.save_scene(ctx, true),
             _ => return false,
         }
         true

@@ -10,6 +10,7 @@ use crate::load::Input;
 use crate::load::{Chosen, Event, Listing, Purpose, Summary};
 use crate::panels::library::Preview;
 use crate::picture::Texture;
+use crate::state::animate::Authored;
 use crate::state::clip::Clip;
 use crate::state::library::EntryState;
 use crate::state::notices::NoticeKind;
@@ -43,10 +44,13 @@ impl Viewer {
                     job,
                     purpose,
                     clip,
+                    authored,
                     thumbnail,
                 } => {
                     let begun = self.beginnings.remove(&job).map(Purpose::Replace);
-                    self.take_clip(ctx, begun.unwrap_or(purpose), *clip, *thumbnail);
+                    let purpose = begun.unwrap_or(purpose);
+                    let read = (*clip, authored.map(|authored| *authored));
+                    self.take_clip(ctx, purpose, read, *thumbnail);
                 }
                 Event::Robot(robot) => self.take_robot(*robot, now),
                 Event::Failed { message } => {
@@ -69,12 +73,16 @@ impl Viewer {
         &mut self,
         ctx: &egui::Context,
         purpose: Purpose,
-        clip: Clip,
+        (clip, authored): (Clip, Option<Authored>),
         thumbnail: ColorImage,
     ) {
         let repaired = clip.report.first_repair().map(ToString::to_string);
         let name = clip.name.clone();
         let id = self.take_in(purpose, clip);
+        if let Some(authored) = authored {
+            self.session.put_authored(id, authored);
+            self.adopt_kept(id);
+        }
         self.opened(ctx, id, thumbnail);
         if let Some(repaired) = repaired {
             let text = format!("{name} was repaired while it was read: {repaired}");
@@ -125,6 +133,12 @@ impl Viewer {
             Chosen::Inputs(inputs) => self.open_inputs(inputs),
             Chosen::Folder(folder) => self.list_folder(ctx, folder),
             Chosen::VideoPath(path) => self.export_to(path),
+            Chosen::ScenePath(id, path) => self.take_scene_path(ctx, id, path),
+            Chosen::Beside(inputs) => {
+                for input in inputs {
+                    self.loader.read(input, Purpose::Beside);
+                }
+            }
         }
     }
 
@@ -155,7 +169,7 @@ impl Viewer {
             let now = ctx.input(|i| i.time);
             match crate::state::library::motion_files(&folder) {
                 Ok(paths) if paths.is_empty() => {
-                    let text = format!("There are no BVH files in {}", folder.display());
+                    let text = format!("There are no BVH files or scenes in {}", folder.display());
                     self.notices.add(NoticeKind::Failure, text, now);
                 }
                 Ok(paths) => {

@@ -19,7 +19,9 @@ const JOINTS_LEAST: f32 = 230.0;
 impl Viewer {
     /// Takes the keys that were pressed, unless somebody is typing.
     pub(super) fn take_keys(&mut self, ui: &mut Ui, asked: &mut Asked) {
-        let busy = self.help_open || !matches!(self.export, export::ExportWindow::Closed);
+        let busy = self.help_open
+            || self.is_asking()
+            || !matches!(self.export, export::ExportWindow::Closed);
         if ui.ctx().text_edit_focused() {
             return;
         }
@@ -156,14 +158,16 @@ impl Viewer {
         let is_stage = self.session.mode() != Mode::Lab;
         if is_stage && self.session.clips().is_empty() && self.loader.jobs().is_empty() && !hovering
         {
-            let text = RichText::new("Drop a BVH file here, or open one with Ctrl+O").size(15.0);
-            let place = Rect::from_center_size(rect.center(), Vec2::new(330.0, 30.0));
+            let text = RichText::new("Drop a BVH file or a scene here, or open one with Ctrl+O")
+                .size(15.0);
+            let place = Rect::from_center_size(rect.center(), Vec2::new(400.0, 30.0));
             row::text_in(ui, place, text, palette.quiet);
         }
     }
 
     /// Shows the windows over everything.
     pub(super) fn show_windows(&mut self, ctx: &egui::Context) {
+        self.show_questions(ctx);
         if self.help_open {
             self.help_open = help::show(ctx);
         }

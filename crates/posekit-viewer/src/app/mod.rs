@@ -5,6 +5,7 @@ mod animate;
 mod events;
 mod lab;
 mod layout;
+mod saving;
 mod shot;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -32,6 +33,7 @@ use crate::state::notices::Notices;
 use crate::state::session::{ClipId, Session};
 use crate::state::settings::{Settings, WindowLayout};
 use crate::theme;
+use crate::work::autosave::Autosave;
 use crate::work::export::ExportOptions;
 
 /// Under this name the settings are kept.
@@ -52,6 +54,8 @@ pub struct ViewerOptions {
     pub renderer: RendererChoice,
     /// Clips that a server offers, to be listed.
     pub listing: Option<Listing>,
+    /// The folder in which scenes are kept that are not saved; with none, they are not.
+    pub kept_in: Option<PathBuf>,
 }
 
 /// The viewer.
@@ -72,6 +76,7 @@ pub struct Viewer {
     tree: JointTree,
     curves: CurvePanel,
     timeline: Timeline,
+    saving: saving::Saving,
     notices: Notices,
     layout: WindowLayout,
     help_open: bool,
@@ -99,6 +104,13 @@ impl Viewer {
         let loader = Loader::new(ctx);
         #[cfg(not(target_arch = "wasm32"))]
         let watch = crate::work::watch::Watch::new(loader.outbox().clone());
+        #[cfg(not(target_arch = "wasm32"))]
+        let autosave = match &options.kept_in {
+            Some(folder) => Autosave::in_folder(folder),
+            None => Autosave::none(),
+        };
+        #[cfg(target_arch = "wasm32")]
+        let autosave = Autosave::in_storage();
         let mut session = Session::new(settings.display.clone(), settings.look);
         session.transport.at_end = settings.at_end;
         let mut viewer = Self {
@@ -115,6 +127,7 @@ impl Viewer {
             tree: JointTree::default(),
             curves: CurvePanel::default(),
             timeline: Timeline::default(),
+            saving: saving::Saving::new(autosave),
             notices: Notices::default(),
             layout: settings.layout,
             help_open: false,
@@ -138,7 +151,14 @@ impl Viewer {
 
     /// The viewer of an eframe window, with what it remembers.
     #[must_use]
-    pub fn of_window(context: &eframe::CreationContext<'_>, options: ViewerOptions) -> Self {
+    pub fn of_window(context: &eframe::CreationContext<'_>, mut options: ViewerOptions) -> Self {
+        #[cfg(not(target_arch = "wasm32"))]
+        {
+            let data = eframe::storage_dir("posekit");
+            options.kept_in = options.kept_in.or(data.map(|data| data.join("unsaved")));
+        }
+        #[cfg(target_arch = "wasm32")]
+        let _no_folder = &mut options;
         let kept = context
             .storage
             .and_then(|storage| eframe::get_value(storage, SETTINGS_KEY));
@@ -182,11 +202,15 @@ impl Viewer {
 
     /// Starts reading clips: the first that is read is opened, the others join it.
     pub fn open_inputs(&mut self, inputs: Vec<Input>) {
-        let group = self.next_group;
-        self.next_group += 1;
-        for input in inputs {
+        let group = self.new_group();
+        for input in crate::load::together(inputs) {
             self.loader.read(input, Purpose::Group(group));
         }
+    }
+
+    fn new_group(&mut self) -> u32 {
+        self.next_group += 1;
+        self.next_group - 1
     }
 
     /// The session, to look at.
@@ -252,6 +276,7 @@ impl Viewer {
         let ctx = ui.ctx().clone();
         self.take_events(&ctx);
         self.take_dropped(&ctx);
+        self.watch_closing(&ctx);
         self.tick(&ctx);
         self.session.follow_changes();
         let mut asked = Asked {
@@ -269,7 +294,11 @@ impl Viewer {
             // What it has done is seen in the next picture, whatever else happens.
             ctx.request_repaint();
         }
-        self.check_edited();
+        // What is dragged is checked when it is let go.
+        if !ctx.input(|i| i.pointer.any_down()) {
+            self.check_edited();
+        }
+        self.keep_scenes(&ctx);
         self.plan_repaint(&ctx);
     }
 

@@ -4,6 +4,7 @@ use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use super::job::{self, Opened, Reading, SMALL_BYTES, Stop};
+use super::scene::{among, is_scene, read_scene};
 use super::{Event, Input, Outbox, Progress, Summary, SummaryNumbers};
 use crate::state::clip::Source;
 
@@ -23,11 +24,61 @@ fn read_input(reading: &Reading, input: &Input) -> Result<Opened, Stop> {
     match input {
         Input::Path(path) => {
             let bytes = read_file(reading, path, &name)?;
+            if is_scene(&name) {
+                return open_scene(&name, Some(path), &bytes, file_bytes);
+            }
             reading.open(&name, Source::File(path.clone()), &bytes)
         }
+        Input::Sample(sample) => reading.open_sample(sample),
+        Input::Together { scene, others } => {
+            let bytes = bytes_of(scene)?;
+            let mut files = Vec::new();
+            for other in others {
+                files.push((job::name_of(other), bytes_of(other)?));
+            }
+            let opened = open_scene(&name, None, &bytes, among(&files));
+            reading.open_others(&bytes, others);
+            opened
+        }
+        Input::Kept(kept) => kept
+            .open(file_bytes)
+            .map(|read| Opened::Scene(Box::new(read)))
+            .map_err(Stop::Failed),
+        Input::Bytes { bytes, .. } if is_scene(&name) => open_scene(&name, None, bytes, among(&[])),
         Input::Bytes { bytes, .. } => {
             reading.show_beginning(&name, &Source::Bytes, bytes);
             reading.open(&name, Source::Bytes, bytes)
+        }
+    }
+}
+
+fn open_scene(
+    name: &str,
+    path: Option<&Path>,
+    bytes: &[u8],
+    bytes_of: impl Fn(&str) -> Result<Vec<u8>, String>,
+) -> Result<Opened, Stop> {
+    read_scene((name, path), bytes, bytes_of)
+        .map(|read| Opened::Scene(Box::new(read)))
+        .map_err(Stop::Failed)
+}
+
+/// The bytes of a file that a scene names.
+pub(super) fn file_bytes(path: &str) -> Result<Vec<u8>, String> {
+    std::fs::read(path).map_err(|error| plain(&error))
+}
+
+/// The bytes of a small input.
+fn bytes_of(input: &Input) -> Result<Vec<u8>, Stop> {
+    match input {
+        Input::Bytes { bytes, .. } => Ok(bytes.to_vec()),
+        Input::Path(path) => {
+            let failed = |error| Stop::Failed(format!("{}: {}", path.display(), plain(&error)));
+            std::fs::read(path).map_err(failed)
+        }
+        other => {
+            let name = job::name_of(other);
+            Err(Stop::Failed(format!("{name}: it goes with no scene")))
         }
     }
 }
@@ -106,5 +157,10 @@ fn summarize(path: &Path) -> Result<SummaryNumbers, String> {
         ));
     }
     let bytes = std::fs::read(path).map_err(|error| plain(&error))?;
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    if is_scene(&name) {
+        let (clip, _) = read_scene((&name, Some(path)), &bytes, file_bytes)?;
+        return Ok(job::numbers_of(&clip));
+    }
     job::summarize(&bytes)
 }

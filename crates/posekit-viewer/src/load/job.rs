@@ -8,9 +8,11 @@ use std::sync::Arc;
 use posekit_formats::bvh::{self, Extent, ReadOptions};
 use posekit_formats::report::ReadErrorKind;
 
-use super::{Event, Input, JobId, Outbox, Progress, Purpose, SummaryNumbers};
+use super::scene::{ReadScene, read_scene};
+use super::{Chosen, Event, Input, JobId, Outbox, Progress, Purpose, SummaryNumbers};
 use crate::picture::thumbnail::thumbnail;
 use crate::picture::to_color_image;
+use crate::state::animate::Authored;
 use crate::state::arm::Robot;
 use crate::state::clip::{Clip, Source};
 
@@ -24,6 +26,7 @@ const BEGINNING_BYTES: usize = 1 << 20;
 /// What a file holds.
 pub(super) enum Opened {
     Clip(Box<Clip>),
+    Scene(Box<ReadScene>),
     Robot(Box<Robot>),
 }
 
@@ -52,6 +55,9 @@ pub(super) fn name_of(input: &Input) -> String {
             name.to_string_lossy().into_owned()
         }
         Input::Bytes { name, .. } => name.clone(),
+        Input::Sample(name) => format!("sample {name}"),
+        Input::Together { scene, .. } => name_of(scene),
+        Input::Kept(kept) => kept.name.clone(),
         #[cfg(target_arch = "wasm32")]
         Input::Browser(file) => file.name(),
     }
@@ -74,14 +80,10 @@ impl Reading {
             Ok(Opened::Robot(robot)) => {
                 self.outbox.send(Event::Robot(robot));
             }
-            Ok(Opened::Clip(clip)) => {
-                let thumbnail = Box::new(to_color_image(&thumbnail(&clip)));
-                self.outbox.send(Event::Read {
-                    job,
-                    purpose: self.purpose,
-                    clip,
-                    thumbnail,
-                });
+            Ok(Opened::Clip(clip)) => self.hand_in_clip(clip, None),
+            Ok(Opened::Scene(read)) => {
+                let (clip, authored) = *read;
+                self.hand_in_clip(Box::new(clip), Some(Box::new(authored)));
             }
             Err(stop) => {
                 let message = match stop {
@@ -95,6 +97,54 @@ impl Reading {
         // neither the job nor its clip. The second waking takes the job's row away.
         self.progress.finish();
         self.outbox.wake();
+    }
+
+    fn hand_in_clip(&self, clip: Box<Clip>, authored: Option<Box<Authored>>) {
+        let thumbnail = Box::new(to_color_image(&thumbnail(&clip)));
+        self.outbox.send(Event::Read {
+            job: self.job,
+            purpose: self.purpose,
+            clip,
+            authored,
+            thumbnail,
+        });
+    }
+
+    /// Opens what came with a scene and is not named by it.
+    pub(super) fn open_others(&self, scene: &[u8], others: &[Input]) {
+        let named = posekit_formats::scene::read(scene).map_or_else(
+            |_told_elsewhere| Vec::new(),
+            |scene| scene.files().into_iter().map(str::to_owned).collect(),
+        );
+        let is_named = |input: &Input| {
+            let name = name_of(input);
+            named
+                .iter()
+                .any(|file: &String| file.rsplit(['/', '\\']).next() == Some(name.as_str()))
+        };
+        let rest: Vec<Input> = others
+            .iter()
+            .filter(|input| !is_named(input))
+            .cloned()
+            .collect();
+        if !rest.is_empty() {
+            self.outbox.send(Event::Chosen(Chosen::Beside(rest)));
+        }
+    }
+
+    /// A clip of our own; the walk that is keyed by hand is a scene.
+    pub(super) fn open_sample(&self, sample: &str) -> Result<Opened, Stop> {
+        use posekit_formats::scene::{AUTHORED_WALK, AUTHORED_WALK_NAME, EXTENSION};
+        if sample == AUTHORED_WALK_NAME {
+            let name = format!("{sample}.{EXTENSION}");
+            let none = |_: &str| Err("it is not there".to_owned());
+            return read_scene((&name, None), AUTHORED_WALK.as_bytes(), none)
+                .map(|read| Opened::Scene(Box::new(read)))
+                .map_err(Stop::Failed);
+        }
+        let clip = Clip::of_sample(format!("{sample}.bvh"), sample);
+        clip.map(|clip| Opened::Clip(Box::new(clip)))
+            .ok_or_else(|| Stop::Failed(format!("there is no sample '{sample}'")))
     }
 
     /// Hands in the first frames of a large file, so that there is something to see while the rest
@@ -190,10 +240,15 @@ pub(super) fn summarize(bytes: &[u8]) -> Result<SummaryNumbers, String> {
     }
     let import = bvh::read(bytes).map_err(|error| error.to_string())?;
     let clip = Clip::from_bvh("", Source::Bytes, import).map_err(|error| error.to_string())?;
-    Ok(SummaryNumbers {
+    Ok(numbers_of(&clip))
+}
+
+/// What the library says of a clip.
+pub(super) fn numbers_of(clip: &Clip) -> SummaryNumbers {
+    SummaryNumbers {
         duration_secs: clip.motion.duration_secs(),
         fps: clip.fps(),
         joint_count: clip.skeleton().joint_count(),
-        thumbnail: to_color_image(&thumbnail(&clip)),
-    })
+        thumbnail: to_color_image(&thumbnail(clip)),
+    }
 }

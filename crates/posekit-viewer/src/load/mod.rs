@@ -5,6 +5,7 @@ mod disk;
 mod job;
 #[cfg(target_arch = "wasm32")]
 mod page;
+pub mod scene;
 mod thread;
 
 use std::path::PathBuf;
@@ -15,9 +16,11 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use egui::ColorImage;
 use posekit::check::Finding;
 
+use crate::state::animate::Authored;
 use crate::state::arm::Robot;
 use crate::state::clip::Clip;
 use crate::state::session::ClipId;
+use crate::work::autosave::Kept;
 
 pub use job::read_clip;
 #[cfg(target_arch = "wasm32")]
@@ -35,9 +38,49 @@ pub enum Input {
         /// The bytes.
         bytes: Arc<[u8]>,
     },
+    /// A clip of our own, by its name.
+    Sample(String),
+    /// A scene that has no folder, and the files that came with it: those that it names are its own,
+    /// the others are opened beside it.
+    Together {
+        /// The scene.
+        scene: Box<Input>,
+        /// What came with it.
+        others: Vec<Input>,
+    },
+    /// A scene that was kept when the program ended without saving it.
+    Kept(Box<Kept>),
     /// A file that was given to the browser.
     #[cfg(target_arch = "wasm32")]
     Browser(web_sys::File),
+}
+
+/// Inputs as they are read: a scene without a folder takes the files that came with it along.
+#[must_use]
+pub fn together(inputs: Vec<Input>) -> Vec<Input> {
+    let needs_others = |input: &Input| {
+        let is_placed = cfg!(not(target_arch = "wasm32")) && matches!(input, Input::Path(_));
+        !is_placed
+            && !matches!(input, Input::Sample(_) | Input::Kept(_))
+            && scene::is_scene(&job::name_of(input))
+    };
+    let (scenes, others): (Vec<_>, Vec<_>) = inputs.into_iter().partition(needs_others);
+    let goes_along = |input: &Input| match input {
+        Input::Bytes { .. } => true,
+        #[cfg(target_arch = "wasm32")]
+        Input::Browser(_) => true,
+        _ => false,
+    };
+    let (along, others): (Vec<_>, Vec<_>) = if scenes.is_empty() {
+        (Vec::new(), others)
+    } else {
+        others.into_iter().partition(goes_along)
+    };
+    let scenes = scenes.into_iter().map(|scene| Input::Together {
+        scene: Box::new(scene),
+        others: along.clone(),
+    });
+    scenes.chain(others).collect()
 }
 
 /// What becomes of a clip when it was read.
@@ -86,6 +129,8 @@ pub enum Event {
         purpose: Purpose,
         /// The clip.
         clip: Box<Clip>,
+        /// Its keys, if it is a scene.
+        authored: Option<Box<Authored>>,
         /// Its preview picture.
         thumbnail: Box<ColorImage>,
     },
@@ -126,10 +171,14 @@ pub enum Event {
 pub enum Chosen {
     /// Files to open.
     Inputs(Vec<Input>),
+    /// Files that join those on the stage.
+    Beside(Vec<Input>),
     /// A folder to list.
     Folder(PathBuf),
     /// Where a video goes.
     VideoPath(PathBuf),
+    /// Where the scene of a clip goes; `None` when nothing was chosen.
+    ScenePath(ClipId, Option<PathBuf>),
 }
 
 /// The clips that a server offers.

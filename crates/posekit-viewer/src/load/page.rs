@@ -11,7 +11,8 @@ use wasm_bindgen::{JsCast as _, JsValue};
 use wasm_bindgen_futures::{JsFuture, spawn_local};
 use web_sys::{ReadableStream, ReadableStreamDefaultReader, Response, Url};
 
-use super::job::{self, Reading, SMALL_BYTES, Stop};
+use super::job::{self, Opened, Reading, SMALL_BYTES, Stop};
+use super::scene::{among, is_scene, read_scene};
 use super::{Event, Input, Listing, Outbox, Progress, Summary, thread};
 use crate::state::clip::Source;
 use crate::web;
@@ -34,17 +35,41 @@ pub(super) fn read(reading: Reading, input: Input) {
         let name = job::name_of(&input);
         let source = match &input {
             Input::Path(address) => Source::File(address.clone()),
-            Input::Browser(_) | Input::Bytes { .. } => Source::Bytes,
+            _ => Source::Bytes,
         };
         let watch = Watch {
             progress: &reading.progress,
             began: &|bytes| reading.show_beginning(&name, &source, bytes),
             grew: &|| reading.outbox.wake(),
         };
+        match &input {
+            Input::Sample(sample) => {
+                reading.hand_in(reading.open_sample(sample));
+                return;
+            }
+            Input::Kept(kept) => {
+                let none = |_: &str| Err(NO_PLACE.to_owned());
+                let opened = kept.open(none).map(|read| Opened::Scene(Box::new(read)));
+                reading.hand_in(opened.map_err(Stop::Failed));
+                return;
+            }
+            Input::Together { scene, others } => {
+                let opened = open_together(&reading, &name, (scene, others)).await;
+                reading.hand_in(opened);
+                return;
+            }
+            Input::Path(address) if is_scene(&name) => {
+                let opened = open_at(&name, address, &watch).await;
+                reading.hand_in(opened);
+                return;
+            }
+            _ => {}
+        }
         let fetched = match &input {
             Input::Path(address) => fetch(address, None, &watch).await,
             Input::Browser(file) => stream(&file.stream(), exact(file.size()), &watch).await,
             Input::Bytes { bytes, .. } => Ok(bytes.to_vec()),
+            _ => Err(Stop::Failed(NO_PLACE.to_owned())),
         };
         match fetched {
             Ok(bytes) => thread::start(move || {
@@ -56,6 +81,76 @@ pub(super) fn read(reading: Reading, input: Input) {
             Err(Stop::Cancelled) => reading.hand_in(Err(Stop::Cancelled)),
         }
     });
+}
+
+/// Why a page does not have a file that a scene names.
+const NO_PLACE: &str =
+    "a page has no folders: open the scene together with the files that it names";
+
+/// A scene and the files that came with it.
+async fn open_together(
+    reading: &Reading,
+    name: &str,
+    (scene, others): (&Input, &[Input]),
+) -> Result<Opened, Stop> {
+    let bytes = given(scene).await?;
+    let mut files = Vec::new();
+    for other in others {
+        files.push((job::name_of(other), given(other).await?));
+    }
+    let read = read_scene((name, None), &bytes, among(&files));
+    reading.open_others(&bytes, others);
+    read.map(|read| Opened::Scene(Box::new(read)))
+        .map_err(Stop::Failed)
+}
+
+/// A scene of the page's own origin, and the files that it names, which are looked for from there.
+async fn open_at(name: &str, address: &Path, watch: &Watch<'_>) -> Result<Opened, Stop> {
+    let told = |stop: Stop, file: &str| match stop {
+        Stop::Failed(why) => Stop::Failed(format!("{file}: {why}")),
+        cancelled => cancelled,
+    };
+    let fetched = fetch(address, None, watch).await;
+    let bytes = fetched.map_err(|stop| told(stop, name))?;
+    let mut files = Vec::new();
+    // What is wrong with the text is told when it is read with its files.
+    if let Ok(scene) = posekit_formats::scene::read(&bytes) {
+        let folder = address.to_string_lossy();
+        let folder = folder.rsplit_once('/').map_or("", |(folder, _)| folder);
+        for file in scene.files() {
+            if file.starts_with(posekit_formats::scene::SAMPLE_PREFIX) {
+                continue;
+            }
+            let at = if folder.is_empty() {
+                PathBuf::from(file)
+            } else {
+                PathBuf::from(format!("{folder}/{file}"))
+            };
+            let fetched = fetch(&at, None, watch).await;
+            let bytes = fetched.map_err(|stop| told(stop, file))?;
+            let last = file.rsplit('/').next().unwrap_or(file);
+            files.push((last.to_owned(), bytes));
+        }
+    }
+    read_scene((name, None), &bytes, among(&files))
+        .map(|read| Opened::Scene(Box::new(read)))
+        .map_err(Stop::Failed)
+}
+
+/// The bytes of a file that was given to the page.
+async fn given(input: &Input) -> Result<Vec<u8>, Stop> {
+    match input {
+        Input::Bytes { bytes, .. } => Ok(bytes.to_vec()),
+        Input::Browser(file) => {
+            let watch = Watch {
+                progress: &Progress::default(),
+                began: &|_| {},
+                grew: &|| {},
+            };
+            stream(&file.stream(), exact(file.size()), &watch).await
+        }
+        _ => Err(Stop::Failed(NO_PLACE.to_owned())),
+    }
 }
 
 /// Who is told while bytes come in.

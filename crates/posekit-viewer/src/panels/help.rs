@@ -2,16 +2,18 @@
 
 use egui::{Grid, RichText, Ui};
 
-use crate::command::{BINDINGS, Group};
+use crate::command::{ANIMATE_BINDINGS, BINDINGS, Binding, Group, TIMELINE_BINDINGS};
 use crate::theme::{GAP, Palette};
 
 /// The groups, with their titles.
-const GROUPS: [(Group, &str); 5] = [
+const GROUPS: [(Group, &str); 7] = [
     (Group::Playback, "Playback"),
     (Group::View, "View"),
     (Group::Figure, "Figure"),
     (Group::Window, "Window and files"),
     (Group::Edit, "Modes and editing"),
+    (Group::Animate, "Animated clips"),
+    (Group::Timeline, "Pointer over the timeline"),
 ];
 
 /// What the mouse does.
@@ -60,13 +62,20 @@ pub fn show(ctx: &egui::Context) -> bool {
                     keys(ui, &GROUPS[2..4]);
                 });
                 ui.vertical(|ui| {
-                    keys(ui, &GROUPS[4..]);
+                    keys(ui, &GROUPS[4..5]);
                     mouse(ui);
                 });
+                ui.vertical(|ui| keys(ui, &GROUPS[5..]));
             });
         });
     });
     open && !modal.should_close()
+}
+
+/// All keys, wherever they are pressed.
+fn all() -> impl Iterator<Item = &'static Binding> {
+    let tables = [BINDINGS, ANIMATE_BINDINGS, TIMELINE_BINDINGS];
+    tables.into_iter().flatten()
 }
 
 fn keys(ui: &mut Ui, groups: &[(Group, &str)]) {
@@ -77,12 +86,9 @@ fn keys(ui: &mut Ui, groups: &[(Group, &str)]) {
             .spacing([3.0 * GAP, GAP])
             .min_row_height(20.0)
             .show(ui, |ui| {
-                let listed = BINDINGS
-                    .iter()
-                    .filter(|b| b.group == *group && !b.says.is_empty());
+                let listed = all().filter(|b| b.group == *group && !b.says.is_empty());
                 for binding in listed {
-                    let keys: Vec<String> = BINDINGS
-                        .iter()
+                    let keys: Vec<String> = all()
                         .filter(|other| other.command == binding.command)
                         .map(|other| other.shortcut_text(cfg!(target_os = "macos")))
                         .take(2)

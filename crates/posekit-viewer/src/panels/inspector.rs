@@ -6,13 +6,13 @@ use egui::{RichText, ScrollArea, Ui, vec2};
 use posekit::check::{Finding, Severity};
 
 use super::transport::severity_color;
-use super::{Asked, Request, edit, ik, row, things, tip};
+use super::{Asked, Request, edit, ik, row, scene, things, tip};
 use crate::command::Command;
 use crate::icons::{self, Icon, icon_button};
 use crate::state::clip::Clip;
 use crate::state::mode::Mode;
 use crate::state::readout::{Readout, RotationReadout, fixed, readout_of};
-use crate::state::session::Session;
+use crate::state::session::{Handles, Session};
 use crate::theme::{CURVES, GAP, Palette};
 
 /// Whether the checks are still at work on the active clip.
@@ -35,11 +35,14 @@ pub fn show(ui: &mut Ui, session: &mut Session, checking: Checking, asked: &mut 
         .auto_shrink([false, false])
         .show(ui, |ui| {
             ui.spacing_mut().item_spacing = vec2(GAP, GAP);
-            if session.mode().edits() {
-                if session.mode() == Mode::Ik {
-                    ik::show(ui, session, asked);
-                    row::divider(ui);
-                }
+            if session.handles() == Handles::Targets {
+                ik::show(ui, session, asked);
+                row::divider(ui);
+            }
+            if session.authored().is_some() {
+                scene::show(ui, session, asked);
+                row::divider(ui);
+            } else if matches!(session.mode(), Mode::Pose | Mode::Ik) {
                 edit::show(ui, session, asked);
                 row::divider(ui);
             }

@@ -12,10 +12,12 @@ pub mod joints;
 pub mod library;
 pub mod notices;
 pub mod row;
+pub mod scene;
 pub mod things;
 pub mod timeline;
 pub mod top_bar;
 pub mod transport;
+pub mod unsaved;
 pub mod view;
 
 use std::path::PathBuf;

@@ -40,7 +40,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, sides: Sides, asked: &mut Asked)
             ui.label(RichText::new("posekit").strong().size(15.0));
             ui.add_space(2.0 * GAP);
         }
-        file_menu(ui, asked);
+        file_menu(ui, session, asked);
         view_menu(ui, session, asked);
         if session.mode() != Mode::Lab {
             style_choice(ui, session);
@@ -109,13 +109,17 @@ fn item(ui: &mut Ui, says: &str, command: Command, asked: &mut Asked) {
     }
 }
 
-fn file_menu(ui: &mut Ui, asked: &mut Asked) {
+fn file_menu(ui: &mut Ui, session: &Session, asked: &mut Asked) {
     menu(ui, "File", |ui| {
         item(ui, "Open files\u{2026}", Command::Open, asked);
         if cfg!(not(target_arch = "wasm32")) {
             item(ui, "Open a folder\u{2026}", Command::OpenFolder, asked);
         }
         ui.separator();
+        if session.authored().is_some() && session.mode() != Mode::Lab {
+            item(ui, "Save the scene", Command::SaveScene, asked);
+            item(ui, "Save the scene as\u{2026}", Command::SaveSceneAs, asked);
+        }
         item(
             ui,
             "Save the range as BVH\u{2026}",

@@ -10,6 +10,7 @@ use crate::command::Command;
 use crate::icons::{Icon, icon_button, toggle_icon};
 use crate::panels::{Asked, stay_open, tip};
 use crate::state::clip::{index_to_f64, nearest_index};
+use crate::state::mode::Mode;
 use crate::state::session::Session;
 use crate::state::transport::{AtEnd, SPEED_RANGE, SPEED_STEPS, Transport};
 use crate::theme::{GAP, Palette};
@@ -29,8 +30,11 @@ const HANDLE_REACH: f32 = 6.0;
 /// Shows the transport: the time line above, the buttons below.
 pub fn show(ui: &mut Ui, session: &mut Session, asked: &mut Asked) {
     ui.add_space(GAP);
-    time_line(ui, session);
-    ui.add_space(GAP);
+    // While motion is authored the timeline's ruler is the time line.
+    if session.mode() != Mode::Animate || session.authored().is_none() {
+        time_line(ui, session);
+        ui.add_space(GAP);
+    }
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = GAP;
         buttons(ui, session, asked);

@@ -141,8 +141,11 @@ pub fn motion_files(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
 /// Whether a file's name says that it holds motion.
 #[must_use]
 pub fn is_motion_file(path: &Path) -> bool {
-    path.extension()
-        .is_some_and(|extension| extension.eq_ignore_ascii_case("bvh"))
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let is_bvh = path
+        .extension()
+        .is_some_and(|extension| extension.eq_ignore_ascii_case("bvh"));
+    is_bvh || posekit_formats::scene::is_scene_name(&name)
 }
 
 #[cfg(test)]
@@ -175,6 +178,7 @@ mod tests {
     #[test]
     fn only_motion_files_are_listed() {
         assert!(is_motion_file(Path::new("a/B.BVH")));
+        assert!(is_motion_file(Path::new("a/b.posekit.toml")));
         assert!(!is_motion_file(Path::new("a/bvh")) && !is_motion_file(Path::new("a/c.obj")));
         assert!(motion_files(Path::new("no/such/folder")).is_err());
     }

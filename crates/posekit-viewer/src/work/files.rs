@@ -98,7 +98,9 @@ pub fn stem_of(name: &str) -> String {
 }
 
 #[cfg(not(target_arch = "wasm32"))]
-pub use desktop::{ask_for_files, ask_for_folder, ask_for_video_path, hand_over, write_beside};
+pub use desktop::{
+    ask_for_files, ask_for_folder, ask_for_scene_path, ask_for_video_path, hand_over, write_beside,
+};
 
 #[cfg(not(target_arch = "wasm32"))]
 mod desktop {
@@ -109,13 +111,17 @@ mod desktop {
 
     use super::Parcel;
     use crate::load::{Chosen, Event, Input, Outbox};
+    use crate::state::session::ClipId;
 
     /// Asks for files to open.
     pub fn ask_for_files(outbox: &Outbox) {
         in_thread(outbox, |outbox| {
             let dialog = rfd::FileDialog::new()
                 .set_title("Open motion files")
-                .add_filter("Motion and robots", &["bvh", "BVH", "urdf", "URDF"]);
+                .add_filter(
+                    "Motion, scenes and robots",
+                    &["bvh", "BVH", "posekit.toml", "toml", "urdf", "URDF"],
+                );
             if let Some(paths) = dialog.pick_files() {
                 let inputs = paths.into_iter().map(Input::Path).collect();
                 outbox.send(Event::Chosen(Chosen::Inputs(inputs)));
@@ -143,6 +149,18 @@ mod desktop {
             if let Some(path) = dialog.save_file() {
                 outbox.send(Event::Chosen(Chosen::VideoPath(path)));
             }
+        });
+    }
+
+    /// Asks where the scene of a clip goes.
+    pub fn ask_for_scene_path(outbox: &Outbox, clip: ClipId, name: String) {
+        in_thread(outbox, move |outbox| {
+            let dialog = rfd::FileDialog::new()
+                .set_title("Save the scene")
+                .set_file_name(name)
+                .add_filter("posekit scene", &["posekit.toml", "toml"]);
+            let path = dialog.save_file();
+            outbox.send(Event::Chosen(Chosen::ScenePath(clip, path)));
         });
     }
 

@@ -3,6 +3,7 @@
 #![allow(missing_docs, reason = "a test binary has no documentation of its own")]
 #![allow(clippy::print_stderr, reason = "a test that is skipped says so")]
 
+mod animate;
 mod arm_lab;
 mod clips;
 mod comparing;

@@ -20,7 +20,7 @@ pub fn show(ui: &mut Ui, session: &mut Session) {
     let Some(owners) = session.authored().map(|it| it.owners_around()) else {
         return;
     };
-    row::heading(ui, "Scene", |ui| {
+    row::heading(ui, "Cameras, lights, props", |ui| {
         let menu = egui::containers::menu::MenuButton::new("Add");
         let (button, _) = menu.ui(ui, |ui| {
             for what in NewThing::ALL {

@@ -242,11 +242,16 @@ fn counted(count: usize) -> String {
 pub fn show(ui: &mut Ui, session: &mut Session, timeline: &mut Timeline, asked: &mut Asked) {
     timeline.rect = Some(ui.max_rect());
     if session.authored().is_none() {
-        begin::show(ui, session, &mut timeline.begin, asked);
+        egui::ScrollArea::vertical()
+            .auto_shrink([false, false])
+            .show(ui, |ui| {
+                begin::show(ui, session, &mut timeline.begin, asked)
+            });
         return;
     }
     bar::show(ui, session, timeline, asked);
     let rect = ui.available_rect_before_wrap();
+    ui.advance_cursor_after_rect(rect);
     let names_width = NAMES_WIDTH.min(0.35 * rect.width());
     let (names, keys) = rect.split_left_right_at_x(rect.left() + names_width);
     let (ruler, body) = keys.split_top_bottom_at_y(rect.top() + RULER_HEIGHT);

@@ -1,0 +1,667 @@
+//! The animation mode: poses are blocked with keys, keys are edited in the dope sheet, scenes are saved,
+//! opened again, and recovered.
+
+use std::path::{Path, PathBuf};
+
+use egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
+use glam::Quat;
+use posekit::keyframe::edit::SAME_TIME_SECS;
+use posekit::keyframe::{Extrapolation, Interpolation, ReduceConfig};
+use posekit::skeleton::JointId;
+use posekit_formats::scene::{self, Scene};
+use posekit_viewer::load::Input;
+use posekit_viewer::state::animate::{Authored, KeyId, Lane, Start, place, start};
+use posekit_viewer::state::clip::{Clip, Source};
+use posekit_viewer::state::display::Look;
+use posekit_viewer::state::mode::Mode;
+use posekit_viewer::state::session::Session;
+use posekit_viewer::state::settings::Settings;
+use posekit_viewer::{Viewer, ViewerOptions};
+
+use super::clips::walking;
+use super::editing::{drag, place_on, view_rect};
+use super::window::{Window, laptop, press, settle, until, viewer};
+
+fn course() -> Option<PathBuf> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../../shared/data/course/motion_walking.bvh");
+    if path.is_file() {
+        return Some(path);
+    }
+    eprintln!("skipped: {} is missing", path.display());
+    None
+}
+
+fn folder(name: &str) -> PathBuf {
+    let folder = std::env::temp_dir().join(format!("posekit-{name}-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a temporary folder");
+    folder
+}
+
+fn authored(window: &Window) -> &Authored {
+    viewer(window)
+        .session()
+        .authored()
+        .expect("a scene is open")
+}
+
+fn session(window: &mut Window) -> &mut Session {
+    let viewer = window.state_mut().as_mut().expect("the window was shown");
+    viewer.session_mut()
+}
+
+/// The window with a clip that is animated from a blank sheet, standing at its first frame.
+fn blank(input: Input) -> Window {
+    let mut window = laptop(vec![input]);
+    press(&mut window, Modifiers::NONE, Key::Space);
+    press(&mut window, Modifiers::NONE, Key::Home);
+    press(&mut window, Modifiers::NONE, Key::A);
+    assert_eq!(viewer(&window).session().mode(), Mode::Animate);
+    window.get_by_label("Blank, from this pose").click();
+    settle(&mut window);
+    window
+}
+
+fn go_to(window: &mut Window, frame: usize) {
+    session(window).transport.go_to_frame(frame);
+    window.run_steps(2);
+}
+
+/// Turns a joint with the ring that faces the viewer, in the window.
+fn turn(window: &mut Window, joint: JointId) {
+    session(window).select(Some(joint));
+    window.hover_at(Pos2::new(683.0, 60.0));
+    press(window, Modifiers::NONE, Key::E);
+    settle(window);
+    let rect = view_rect(window);
+    let handle = posekit_viewer::gizmo::Handle::TurnOnScreen;
+    let from = place_on(viewer(window).session(), handle, rect);
+    drag(window, from, from + Vec2::new(24.0, 30.0));
+    window.drop_at(from + Vec2::new(24.0, 30.0));
+    settle(window);
+}
+
+/// A joint with a name that has this in it.
+fn joint(window: &Window, part: &str) -> JointId {
+    let skeleton = authored(window).skeleton();
+    let mut joints = skeleton.joints();
+    joints
+        .find(|joint| skeleton.name(*joint).contains(part) && !skeleton.is_end_site(*joint))
+        .expect("the skeleton has such a joint")
+}
+
+fn times(authored: &Authored, lane: Lane) -> Vec<f64> {
+    let track = authored.track(lane);
+    track.map_or_else(Vec::new, |track| track.times_secs().to_vec())
+}
+
+/// The middle of the dope sheet's row of all keys, at a time.
+fn summary_at(window: &Window, secs: f64) -> Pos2 {
+    let sheet = window.get_by_label_contains("Dope sheet:").rect();
+    // All of the range is in view at first, with 18 points at both ends; the scroll bar is beside it.
+    let [start, end] = authored(window).scene().range_secs;
+    let share = ((secs - start) / (end - start)) as f32;
+    let left = sheet.left() + 18.0;
+    let width = sheet.width() + 9.0 - 36.0;
+    Pos2::new(left + share * width, sheet.top() + 10.0)
+}
+
+fn block_three_poses(window: &mut Window, names: [&str; 2]) -> [JointId; 2] {
+    let joints = names.map(|name| joint(window, name));
+    for (frame, joint) in [(20, joints[0]), (40, joints[1])] {
+        go_to(window, frame);
+        turn(window, joint);
+        assert!(
+            viewer(window).session().has_pending_pose(),
+            "without auto-key a pose is held"
+        );
+        press(window, Modifiers::SHIFT, Key::I);
+        window.run_steps(2);
+    }
+    joints
+}
+
+fn blocks_edits_saves_and_reopens(input: Input, names: [&str; 2]) {
+    let mut window = blank(input);
+    let first = authored(&window).scene().clone();
+    let joints = block_three_poses(&mut window, names);
+    let lane = Lane::Rotation(joints[0]);
+    let rate = authored(&window).scene().frames_per_sec;
+    let frame = |n: f64| n / rate;
+    assert_eq!(times(authored(&window), lane).len(), 3, "three poses");
+    // What is between keys is between poses: the figure follows.
+    let motion = viewer(&window)
+        .session()
+        .active_clip()
+        .expect("open")
+        .motion
+        .clone();
+    let turned = |frame: usize| motion.rotation(frame, joints[0]);
+    assert!(turned(0).angle_between(turned(20)) > 0.05);
+    let half = turned(0).angle_between(turned(10));
+    assert!(half > 0.01 && half < turned(0).angle_between(turned(20)));
+
+    // The middle pose is dragged ten frames on, in the dope sheet.
+    let from = summary_at(&window, frame(20.0));
+    let to = summary_at(&window, frame(30.0));
+    drag(&mut window, from, to);
+    window.drop_at(to);
+    window.run_steps(3);
+    let moved = times(authored(&window), lane);
+    assert!((moved[1] - frame(30.0)).abs() < 1e-9, "{moved:?}");
+
+    // Everything is scaled about the first frame by the keys.
+    go_to(&mut window, 0);
+    window.hover_at(to);
+    window.step();
+    press(&mut window, Modifiers::NONE, Key::A);
+    assert_eq!(
+        authored(&window).selection().len(),
+        authored(&window).key_count()
+    );
+    press(&mut window, Modifiers::NONE, Key::S);
+    window.hover_at(summary_at(&window, frame(15.0)));
+    window.step();
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    let scaled = times(authored(&window), lane);
+    assert!((scaled[1] - frame(15.0)).abs() < 1e-9, "{scaled:?}");
+    assert!((scaled[2] - frame(20.0)).abs() < 1e-9, "{scaled:?}");
+
+    // The first pose is copied and pasted left for right at frame 60.
+    let first_key = summary_at(&window, 0.0);
+    click(&mut window, first_key);
+    window.event(Event::Copy);
+    window.run_steps(2);
+    go_to(&mut window, 60);
+    window.event(Event::Paste("posekit".into()));
+    window.run_steps(2);
+    assert_eq!(times(authored(&window), lane).len(), 4);
+    let at = |window: &Window, secs: f64| authored(window).pose_at(secs);
+    let (start_pose, pasted) = (at(&window, 0.0), at(&window, frame(60.0)));
+    let same = |a: Quat, b: Quat| (a.dot(b).abs() - 1.0).abs() < 1e-5;
+    for (a, b) in start_pose.rotations.iter().zip(&pasted.rotations) {
+        assert!(same(*a, *b), "a pose that was pasted is that pose");
+    }
+    // The same keys change sides.
+    press(&mut window, Modifiers::COMMAND, Key::M);
+    let mirrored = at(&window, frame(60.0));
+    let skeleton = authored(&window).skeleton().clone();
+    let axis = posekit::keyframe::edit::mirror_axis(&skeleton);
+    let expected = posekit::keyframe::edit::mirror_pose(&skeleton, axis, &pasted);
+    for joint in skeleton.joints().filter(|j| !skeleton.is_end_site(*j)) {
+        let (a, b) = (
+            mirrored.rotations[joint.index()],
+            expected.rotations[joint.index()],
+        );
+        assert!(same(a, b), "{}", skeleton.name(joint));
+    }
+
+    // Saved, it reads as the same scene, and opens as that.
+    let place_of_file = folder("animate").join(format!("{}.posekit.toml", names[0]));
+    save_to(&mut window, &place_of_file);
+    let bytes = std::fs::read(&place_of_file).expect("it is written");
+    let read = scene::read(&bytes).expect("what we write we read");
+    let folder_of_it = place_of_file.parent().expect("a folder");
+    assert_eq!(
+        read,
+        place::written(authored(&window).scene(), folder_of_it)
+    );
+    assert_eq!(scene::write(&read), bytes, "to the byte");
+    assert!(!authored(&window).is_dirty());
+    let again = laptop(vec![Input::Path(place_of_file.clone())]);
+    assert_eq!(authored(&again).scene(), authored(&window).scene());
+
+    // All is undone, to the start, and done again.
+    let last = authored(&window).scene().clone();
+    let steps = authored(&window).undo_count();
+    assert_eq!(
+        steps, 6,
+        "two poses, a move, a scaling, a paste, a mirroring"
+    );
+    for _ in 0..steps {
+        press(&mut window, Modifiers::COMMAND, Key::Z);
+    }
+    assert_eq!(authored(&window).scene(), &first);
+    assert!(authored(&window).is_dirty(), "the file has more");
+    for _ in 0..steps {
+        press(&mut window, Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    }
+    assert_eq!(authored(&window).scene(), &last);
+    assert!(!authored(&window).is_dirty());
+    std::fs::remove_file(&place_of_file).expect("removed");
+}
+
+fn click(window: &mut Window, at: Pos2) {
+    window.hover_at(at);
+    window.step();
+    for pressed in [true, false] {
+        window.event(Event::PointerButton {
+            pos: at,
+            button: PointerButton::Primary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        });
+        window.step();
+    }
+    window.run_steps(2);
+}
+
+fn save_to(window: &mut Window, path: &Path) {
+    let ctx = window.ctx.clone();
+    let viewer = window.state_mut().as_mut().expect("shown");
+    let id = viewer.session().active_id().expect("open");
+    viewer.save_scene_to(&ctx, id, path.to_owned());
+    window.run_steps(2);
+}
+
+#[test]
+fn three_poses_on_the_sample_are_blocked_edited_saved_and_reopened() {
+    let input = Input::Sample("walk".into());
+    blocks_edits_saves_and_reopens(input, ["LeftUpperArm", "RightUpperLeg"]);
+}
+
+#[test]
+fn three_poses_on_the_course_skeleton_are_blocked_edited_saved_and_reopened() {
+    if let Some(path) = course() {
+        blocks_edits_saves_and_reopens(Input::Path(path), ["lShoulder", "rHip"]);
+    }
+}
+
+/// A session with the walk, animated in some way.
+fn animated(how: Start) -> Session {
+    let clip = Clip::of_sample("walk", "walk").expect("a sample");
+    let mut session = Session::default();
+    let authored = start(&clip, how, 0.5, false).expect("it can be animated");
+    let id = session.open(clip);
+    session.put_authored(id, authored);
+    session.set_mode(Mode::Animate);
+    session.transport.pause();
+    session
+}
+
+#[test]
+fn a_clip_is_animated_in_each_way() {
+    let walk = walking().motion;
+    let over = animated(Start::OverMotion);
+    let clip = over.active_clip().expect("open");
+    for joint in walk.skeleton().joints() {
+        let gap = walk
+            .rotation(20, joint)
+            .angle_between(clip.motion.rotation(20, joint));
+        assert!(gap < 1e-3, "over the motion it is the motion");
+    }
+    let config = ReduceConfig::default();
+    let reduced = animated(Start::Reduced(config));
+    let animation = reduced.authored().expect("authored").animation();
+    let error = posekit::keyframe::KeyError::between(&walk, animation);
+    assert!(error.angle_deg <= config.angle_deg && error.distance_heights <= 0.01);
+    let rest = animated(Start::Rest);
+    let pose = rest.authored().expect("authored").pose_at(1.0);
+    let skeleton = walk.skeleton();
+    for joint in skeleton.joints() {
+        let gap = pose.rotations[joint.index()].angle_between(skeleton.rest_rotation(joint));
+        assert!(gap < 1e-3);
+    }
+    let posed = animated(Start::Pose);
+    let pose = posed.authored().expect("authored").pose_at(1.0);
+    let shown = walk.sample(0.5);
+    for joint in skeleton.joints().filter(|j| !skeleton.is_end_site(*j)) {
+        let gap = pose.rotations[joint.index()].angle_between(shown.rotations[joint.index()]);
+        assert!(gap < 1e-3);
+    }
+}
+
+#[test]
+fn auto_key_keys_what_was_turned_and_nothing_else() {
+    let mut window = blank(Input::Sample("walk".into()));
+    window.get_by_label("Auto-key").click();
+    window.run_steps(2);
+    let arm = joint(&window, "LeftUpperArm");
+    let leg = joint(&window, "RightUpperLeg");
+    go_to(&mut window, 12);
+    turn(&mut window, arm);
+    assert!(!viewer(&window).session().has_pending_pose());
+    let rate = authored(&window).scene().frames_per_sec;
+    let keyed = times(authored(&window), Lane::Rotation(arm));
+    assert!((keyed[1] - 12.0 / rate).abs() < SAME_TIME_SECS);
+    assert_eq!(times(authored(&window), Lane::Rotation(leg)).len(), 1);
+    assert_eq!(authored(&window).undo_count(), 1);
+}
+
+#[test]
+fn a_pose_that_is_not_keyed_is_gone_at_another_time() {
+    let mut window = blank(Input::Sample("walk".into()));
+    let arm = joint(&window, "LeftUpperArm");
+    turn(&mut window, arm);
+    assert!(viewer(&window).session().has_pending_pose());
+    go_to(&mut window, 3);
+    assert!(!viewer(&window).session().has_pending_pose());
+    assert_eq!(authored(&window).undo_count(), 0);
+}
+
+#[test]
+fn an_in_between_is_one_step_and_lies_between() {
+    let mut session = animated(Start::Pose);
+    let joint = walking().motion.rotated_joints()[5];
+    session.select(Some(joint));
+    let turn = glam::DQuat::from_rotation_z(1.0);
+    key_turned(&mut session, joint, 60, turn);
+    session.transport.go_to_frame(30);
+    let ends = {
+        let authored = session.authored().expect("authored");
+        let rate = authored.scene().frames_per_sec;
+        [0.0, 60.0].map(|n| authored.pose_at(n / rate).rotations[joint.index()])
+    };
+    let gesture = session.author(Authored::gesture).expect("authored");
+    let before = session.authored().expect("authored").undo_count();
+    for share in [0.1, 0.9, 0.25] {
+        session.author(|authored| {
+            authored.give_up(gesture);
+            let at = authored.snapped(authored.now_secs());
+            let edit = posekit_viewer::state::animate::edit::pose::breakdown(
+                authored,
+                &[joint],
+                at,
+                share,
+                Interpolation::Cubic,
+            );
+            let edit = edit.expect("the joint is keyed");
+            authored.set_tracks("In-between", Some(gesture), edit.changes, edit.selection);
+        });
+    }
+    let authored = session.authored().expect("authored");
+    assert_eq!(authored.undo_count(), before + 1);
+    let now = authored.pose_at(authored.now_secs()).rotations[joint.index()];
+    let expected = ends[0].slerp(ends[1], 0.25);
+    assert!(now.angle_between(expected) < 1e-3);
+}
+
+/// Keys a joint at a frame, turned from where it is.
+fn key_turned(session: &mut Session, joint: JointId, frame: usize, turn: glam::DQuat) {
+    session.transport.go_to_frame(frame);
+    session.author(|authored| {
+        let at = authored.snapped(authored.now_secs());
+        let mut pose = authored.pose_at(at);
+        let rotation = &mut pose.rotations[joint.index()];
+        *rotation = (rotation.as_dquat() * turn).as_quat();
+        let edit = posekit_viewer::state::animate::edit::pose::keys_of_pose(
+            authored,
+            &[joint],
+            &pose,
+            at,
+            Interpolation::Cubic,
+        );
+        let edit = edit.expect("a finite pose");
+        authored.set_tracks("Key", None, edit.changes, edit.selection);
+    });
+}
+
+#[test]
+fn ways_between_and_beyond_are_set_from_the_menus() {
+    let mut window = blank(Input::Sample("walk".into()));
+    let joints = block_three_poses(&mut window, ["LeftUpperArm", "RightUpperLeg"]);
+    let over = summary_at(&window, 0.3);
+    window.hover_at(over);
+    window.step();
+    press(&mut window, Modifiers::NONE, Key::A);
+    press(&mut window, Modifiers::NONE, Key::T);
+    window.run_steps(2);
+    window.get_by_label("linear").click();
+    window.run_steps(2);
+    let lane = Lane::Rotation(joints[0]);
+    let track = authored(&window).track(lane).expect("keyed");
+    assert_eq!(track.interpolation(0), Interpolation::Linear);
+    window.hover_at(over);
+    window.step();
+    press(&mut window, Modifiers::SHIFT, Key::E);
+    window.run_steps(2);
+    window.get_by_label("cycle both").click();
+    window.run_steps(2);
+    let track = authored(&window).track(lane).expect("keyed");
+    assert_eq!(track.beyond(), [Extrapolation::Cycle; 2]);
+}
+
+#[test]
+fn keys_are_selected_in_a_box_deleted_and_added() {
+    let mut window = blank(Input::Sample("walk".into()));
+    let joints = block_three_poses(&mut window, ["LeftUpperArm", "RightUpperLeg"]);
+    let count = authored(&window).key_count();
+    let rate = authored(&window).scene().frames_per_sec;
+    let from = summary_at(&window, 35.0 / rate) - Vec2::new(0.0, 8.0);
+    let to = summary_at(&window, 45.0 / rate) + Vec2::new(0.0, 9.0);
+    drag(&mut window, from, to);
+    window.drop_at(to);
+    window.run_steps(2);
+    let selected = authored(&window).selection().clone();
+    assert!(!selected.is_empty());
+    let at = |key: &KeyId| authored(&window).time_of(*key);
+    assert!(
+        selected
+            .iter()
+            .all(|key| at(key).is_some_and(|t| (t - 40.0 / rate).abs() < 1e-6))
+    );
+    press(&mut window, Modifiers::NONE, Key::X);
+    assert_eq!(authored(&window).key_count(), count - selected.len());
+    assert_eq!(times(authored(&window), Lane::Rotation(joints[0])).len(), 2);
+    let place = summary_at(&window, 50.0 / rate);
+    for _ in 0..2 {
+        click_once(&mut window, place);
+    }
+    window.run_steps(2);
+    let keyed = times(authored(&window), Lane::Rotation(joints[0]));
+    assert!(
+        keyed.iter().any(|t| (t - 50.0 / rate).abs() < 1e-6),
+        "{keyed:?}"
+    );
+}
+
+fn click_once(window: &mut Window, at: Pos2) {
+    window.hover_at(at);
+    for pressed in [true, false] {
+        window.event(Event::PointerButton {
+            pos: at,
+            button: PointerButton::Primary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        });
+        window.step();
+    }
+}
+
+#[test]
+fn escape_gives_a_move_up() {
+    let mut window = blank(Input::Sample("walk".into()));
+    block_three_poses(&mut window, ["LeftUpperArm", "RightUpperLeg"]);
+    let before = authored(&window).scene().clone();
+    let steps = authored(&window).undo_count();
+    window.hover_at(summary_at(&window, 0.2));
+    window.step();
+    press(&mut window, Modifiers::NONE, Key::A);
+    press(&mut window, Modifiers::NONE, Key::G);
+    window.hover_at(summary_at(&window, 0.6));
+    window.run_steps(2);
+    assert_ne!(
+        authored(&window).scene(),
+        &before,
+        "keys follow the pointer"
+    );
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert_eq!(authored(&window).scene(), &before);
+    assert_eq!(authored(&window).undo_count(), steps);
+}
+
+#[test]
+fn the_range_of_the_scene_is_what_plays() {
+    let mut session = animated(Start::Pose);
+    session.author(|authored| {
+        drop(authored.edit_scene("Range", None, |scene| scene.range_secs = [0.5, 1.0]));
+    });
+    let clip = session.active_clip().expect("open");
+    let rate = session.authored().expect("authored").scene().frames_per_sec;
+    assert_eq!(session.transport.frame_count(), clip.frame_count());
+    let frames = clip.frame_count() as f64 - 1.0;
+    assert!((frames / rate - 0.5).abs() < 1.0 / rate);
+    session.transport.go_to_frame(0);
+    assert!((session.scene_secs() - 0.5).abs() < 1e-9);
+    session.undo();
+    assert!(session.authored().expect("authored").scene().range_secs[0] == 0.0);
+}
+
+#[test]
+fn scenes_without_a_folder_take_the_files_along_that_came_with_them() {
+    let mut scene = Scene::new(scene::SkeletonSource::File("arm.bvh".into()));
+    scene.title = "arm".into();
+    let named = |name: &str, bytes: Vec<u8>| Input::Bytes {
+        name: name.into(),
+        bytes: bytes.into(),
+    };
+    let text = scene::write(&scene);
+    let arm = super::clips::arm_text(4).into_bytes();
+    let inputs = vec![
+        named("shot.posekit.toml", text.clone()),
+        named("arm.bvh", arm.clone()),
+        named("other.bvh", arm),
+    ];
+    let mut window = laptop(inputs);
+    until(&mut window, |viewer| viewer.session().clips().len() == 2);
+    let names: Vec<_> = viewer(&window)
+        .session()
+        .clips()
+        .iter()
+        .map(|open| open.clip.name.clone())
+        .collect();
+    assert_eq!(names, ["shot.posekit.toml", "other.bvh"]);
+    assert_eq!(authored(&window).scene(), &scene);
+    let alone = laptop(vec![named("shot.posekit.toml", text)]);
+    let told = viewer(&alone).notices().shown();
+    assert!(told.iter().any(|notice| notice.text.contains("arm.bvh")));
+}
+
+#[test]
+fn what_is_wrong_with_a_scene_is_told_with_its_place() {
+    let text = "format = \"posekit scene\"\nversion = 1\nframes = 30\n";
+    let input = Input::Bytes {
+        name: "bad.posekit.toml".into(),
+        bytes: text.as_bytes().into(),
+    };
+    let window = laptop(vec![input]);
+    let told = viewer(&window).notices().shown();
+    let has_place = |text: &str| text.contains("bad.posekit.toml:3:1: frames");
+    assert!(
+        told.iter().any(|notice| has_place(&notice.text)),
+        "{told:?}"
+    );
+}
+
+/// A window that keeps what is not saved in a folder.
+fn kept_in(folder: &Path, inputs: Vec<Input>) -> Window {
+    let mut options = Some(ViewerOptions {
+        inputs,
+        kept_in: Some(folder.to_owned()),
+        ..ViewerOptions::default()
+    });
+    let settings = Settings {
+        look: Look::Dark,
+        ..Settings::default()
+    };
+    let mut window = Harness::builder()
+        .with_size(Vec2::new(1366.0, 768.0))
+        .build_ui_state(
+            move |ui: &mut egui::Ui, viewer: &mut Option<Viewer>| {
+                let viewer = viewer.get_or_insert_with(|| {
+                    let options = options.take().unwrap_or_default();
+                    Viewer::new(ui.ctx(), None, &settings, options)
+                });
+                viewer.show(ui);
+            },
+            None,
+        );
+    until(&mut window, |viewer| !viewer.is_working());
+    window
+}
+
+#[test]
+fn what_a_run_left_that_fell_over_is_opened_again() {
+    let folder = folder("kept");
+    let mut window = kept_in(&folder, vec![Input::Sample("walk".into())]);
+    press(&mut window, Modifiers::NONE, Key::Space);
+    press(&mut window, Modifiers::NONE, Key::A);
+    window.get_by_label("Blank, from this pose").click();
+    settle(&mut window);
+    block_three_poses(&mut window, ["LeftUpperArm", "RightUpperLeg"]);
+    let lost = authored(&window).scene().clone();
+    let kept = || {
+        let listing = std::fs::read_dir(&folder).expect("a folder").flatten();
+        let names = listing.map(|item| item.file_name().to_string_lossy().into_owned());
+        names
+            .filter(|name| name.ends_with("toml"))
+            .collect::<Vec<_>>()
+    };
+    // Some seconds of the window's clock later it is kept.
+    for _ in 0..600 {
+        window.step();
+        if !kept().is_empty() {
+            break;
+        }
+    }
+    assert_eq!(kept().len(), 1);
+    // Another window beside it offers nothing: the first one lives.
+    let beside = kept_in(&folder, Vec::new());
+    assert!(!viewer(&beside).is_asking());
+    drop(beside);
+    // The run falls over: nobody holds its lock any more, what it kept stays.
+    let left = kept()[0].clone();
+    let text = std::fs::read(folder.join(&left)).expect("kept");
+    drop(window);
+    assert!(kept().is_empty(), "who ends in good order leaves nothing");
+    std::fs::write(folder.join(&left), text).expect("as after a fall");
+
+    let mut again = kept_in(&folder, Vec::new());
+    assert!(viewer(&again).is_asking());
+    again.get_by_label("Open again").click();
+    until(&mut again, |viewer| {
+        !viewer.is_asking() && viewer.session().authored().is_some()
+    });
+    assert_eq!(authored(&again).scene(), &lost);
+    assert!(authored(&again).is_dirty());
+    assert_eq!(kept().len(), 1, "it is kept as this run's now");
+    assert_ne!(kept()[0], left);
+    drop(again);
+    std::fs::remove_dir_all(&folder).expect("removed");
+}
+
+#[test]
+fn closing_asks_where_something_is_not_saved() {
+    let mut window = blank(Input::Sample("walk".into()));
+    block_three_poses(&mut window, ["LeftUpperArm", "RightUpperLeg"]);
+    assert!(viewer(&window).title().starts_with("* "));
+    let path = folder("closing").join("shot");
+    save_to(&mut window, &path);
+    let title = viewer(&window).title();
+    assert_eq!(title, "shot.posekit.toml \u{2013} posekit");
+    let source = viewer(&window)
+        .session()
+        .active_clip()
+        .expect("open")
+        .source
+        .clone();
+    let Source::Scene(Some(saved)) = source else {
+        panic!("it has a file");
+    };
+    assert!(saved.ends_with("shot.posekit.toml"));
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    window.get_by_label("Close").click();
+    window.run_steps(2);
+    assert!(viewer(&window).is_asking());
+    window.get_by_label("Cancel").click();
+    window.run_steps(2);
+    assert_eq!(viewer(&window).session().clips().len(), 1);
+    window.get_by_label("Close").click();
+    window.run_steps(2);
+    window.get_by_label("Do not save").click();
+    window.run_steps(2);
+    assert!(viewer(&window).session().clips().is_empty());
+    std::fs::remove_file(saved).expect("it was saved once");
+}
