@@ -43,7 +43,7 @@ impl Viewer {
     pub(super) fn seen(&self) -> Scene {
         match self.session.mode() {
             Mode::Lab => self.lab.scene(self.session.look()),
-            _ => self.session.scene(),
+            _ => self.session.picture(),
         }
     }
 

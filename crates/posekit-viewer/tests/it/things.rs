@@ -336,12 +336,12 @@ fn a_light_is_dragged_by_its_arrow_along_one_axis_in_one_step() {
     add(&mut window, "Light");
     let before = vector(viewer(&window).session(), AT);
     let rect = view_rect(&window);
-    let from = place_on(viewer(&window).session(), Handle::MoveAlong(Axis::Y), rect);
+    let from = place_on(viewer(&window).session(), Handle::MoveAlong(Axis::X), rect);
     let steps = viewer(&window)
         .session()
         .authored()
         .map(|it| it.undo_count());
-    drag(&mut window, from, from - Vec2::new(0.0, 40.0));
+    drag(&mut window, from, from + Vec2::new(40.0, 0.0));
     assert!(viewer(&window).session().is_dragging());
     assert_eq!(
         viewer(&window)
@@ -350,17 +350,18 @@ fn a_light_is_dragged_by_its_arrow_along_one_axis_in_one_step() {
             .map(|it| it.undo_count()),
         steps
     );
-    window.drop_at(from - Vec2::new(0.0, 40.0));
+    window.drop_at(from + Vec2::new(40.0, 0.0));
     window.run_steps(2);
     let after = vector(viewer(&window).session(), AT);
-    assert!(after.y > before.y && (after - before).length() - (after.y - before.y) < 1e-5);
+    let moved = after - before;
+    assert!(moved.x.abs() > 0.05 && moved.length() - moved.x.abs() < 1e-5);
     let lamp = viewer(&window).session().scene().lamps[0];
     assert!(lamp.position.distance(after.as_vec3()) < 1e-5);
     press(&mut window, Modifiers::COMMAND, Key::Z);
     assert_eq!(vector(viewer(&window).session(), AT), before);
     // Esc on the way leaves it where it was.
-    let from = place_on(viewer(&window).session(), Handle::MoveAlong(Axis::Y), rect);
-    drag(&mut window, from, from - Vec2::new(0.0, 40.0));
+    let from = place_on(viewer(&window).session(), Handle::MoveAlong(Axis::X), rect);
+    drag(&mut window, from, from + Vec2::new(40.0, 0.0));
     press(&mut window, Modifiers::NONE, Key::Escape);
     window.drop_at(from);
     window.run_steps(2);

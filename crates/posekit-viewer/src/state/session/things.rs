@@ -34,7 +34,7 @@ const FRAME_SHARE: f32 = 0.92;
 const PROP_SIDE: f32 = 0.3;
 
 /// Where in the view a new light is, in thousandths from the left and from the top.
-const LIGHT_IN_VIEW: (f32, f32) = (250.0, 160.0);
+const LIGHT_IN_VIEW: (f32, f32) = (250.0, 220.0);
 
 /// All of a session that is about cameras, lights and props.
 #[derive(Debug)]
@@ -439,6 +439,11 @@ impl Session {
                 Tool::Move
             },
         })
+    }
+
+    /// Where what is picked stands.
+    pub(super) fn picked_place(&self) -> Option<Vec3> {
+        Some(self.placement_of(self.picked()?)?.position)
     }
 
     fn placement_of(&self, picked: Picked) -> Option<Placement> {
