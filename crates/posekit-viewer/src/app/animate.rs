@@ -1,13 +1,17 @@
 //! The animation mode in the window: the timeline, and what commands mean in it.
 
+use std::sync::Arc;
+
 use egui::{Event, Frame, Key, Margin, Modifiers, Panel, Ui};
 
 use super::Viewer;
 use crate::command::{Command, KeysCommand, Place};
 use crate::panels::{Asked, timeline};
-use crate::state::animate::{self, Start};
+use crate::state::animate::{self, Authored, Start};
+use crate::state::clip::Source;
 use crate::state::mode::Mode;
 use crate::state::notices::NoticeKind;
+use crate::state::session::ClipId;
 
 impl Viewer {
     /// Shows the timeline over the transport, while motion is authored.
@@ -101,14 +105,35 @@ impl Viewer {
         let (Some(id), Some(clip)) = (self.session.active_id(), self.session.active_clip()) else {
             return;
         };
+        let clip = Arc::clone(clip);
         let time = self.session.transport.time_secs();
         let is_edited = self.session.is_edited(id);
-        match animate::start(clip, start, time, is_edited) {
-            Ok(authored) => self.session.put_authored(id, authored),
-            Err(why) => {
-                self.notices
-                    .add(NoticeKind::Failure, why, ctx.input(|i| i.time));
+        if matches!(start, Start::Reduced(_)) {
+            // A long motion takes a while.
+            self.timeline.set_waiting(true);
+            self.loader.reduce(id, clip, start);
+        } else {
+            let started = animate::start(&clip, start, time, is_edited);
+            self.take_authored(id, started, ctx.input(|i| i.time));
+        }
+    }
+
+    /// A clip became an authored one, or could not.
+    pub(super) fn take_authored(
+        &mut self,
+        id: ClipId,
+        started: Result<Authored, String>,
+        now: f64,
+    ) {
+        self.timeline.set_waiting(false);
+        match started {
+            Ok(authored) => {
+                self.session.put_authored(id, authored);
+                let name = self.scene_name(id);
+                self.session.rename(id, name, Source::Scene(None));
+                self.watch_files();
             }
+            Err(why) => self.notices.add(NoticeKind::Failure, why, now),
         }
     }
 }

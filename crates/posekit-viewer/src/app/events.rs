@@ -61,6 +61,7 @@ impl Viewer {
                     self.checking.remove(&clip);
                     self.session.set_findings(clip, findings);
                 }
+                Event::Authored { clip, started } => self.take_authored(clip, *started, now),
                 Event::Changed { clip } => self.tell_changed(clip, now),
                 Event::Chosen(chosen) => self.take_chosen(ctx, chosen),
                 Event::Summary(summary) => self.take_summary(ctx, *summary),

@@ -238,7 +238,10 @@ impl Viewer {
     /// Whether something is being read, checked or looked at.
     #[must_use]
     pub fn is_working(&self) -> bool {
-        !self.loader.jobs().is_empty() || !self.checking.is_empty() || self.loader.is_looking()
+        !self.loader.jobs().is_empty()
+            || !self.checking.is_empty()
+            || self.loader.is_looking()
+            || self.timeline.is_waiting()
     }
 
     /// Whether the view's picture shows what it should, nothing being drawn.

@@ -8,6 +8,7 @@ use posekit_formats::scene;
 use super::Viewer;
 use crate::load::{Input, Purpose};
 use crate::panels::unsaved::{Answer, ask_to_recover, ask_to_save};
+#[cfg(not(target_arch = "wasm32"))]
 use crate::state::animate::place;
 use crate::state::clip::Source;
 use crate::state::notices::NoticeKind;
@@ -113,7 +114,7 @@ impl Viewer {
     }
 
     /// What the file of a clip's scene would be called.
-    fn scene_name(&self, id: ClipId) -> String {
+    pub(super) fn scene_name(&self, id: ClipId) -> String {
         let open = self.session.clips().iter().find(|open| open.id == id);
         let name = open.map_or("scene", |open| open.clip.name.as_str());
         let ending = format!(".{}", scene::EXTENSION);

@@ -17,6 +17,11 @@ const PREVIEW_LIMIT_BYTES: u64 = 64 << 20;
 /// Reads a clip and hands it in.
 pub(super) fn read(reading: &Reading, input: &Input) {
     reading.hand_in(read_input(reading, input));
+    if let Input::Together { scene, others } = input
+        && let Ok(bytes) = bytes_of(scene)
+    {
+        reading.open_others(&bytes, others);
+    }
 }
 
 fn read_input(reading: &Reading, input: &Input) -> Result<Opened, Stop> {
@@ -36,9 +41,7 @@ fn read_input(reading: &Reading, input: &Input) -> Result<Opened, Stop> {
             for other in others {
                 files.push((job::name_of(other), bytes_of(other)?));
             }
-            let opened = open_scene(&name, None, &bytes, among(&files));
-            reading.open_others(&bytes, others);
-            opened
+            open_scene(&name, None, &bytes, among(&files))
         }
         Input::Kept(kept) => kept
             .open(file_bytes)

@@ -16,7 +16,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use egui::ColorImage;
 use posekit::check::Finding;
 
-use crate::state::animate::Authored;
+use crate::state::animate::{Authored, Start, start};
 use crate::state::arm::Robot;
 use crate::state::clip::Clip;
 use crate::state::session::ClipId;
@@ -147,6 +147,13 @@ pub enum Event {
         clip: ClipId,
         /// What was found.
         findings: Vec<Finding>,
+    },
+    /// A clip became an authored one, or could not.
+    Authored {
+        /// Which.
+        clip: ClipId,
+        /// Its scene, or why there is none, for people.
+        started: Box<Result<Authored, String>>,
     },
     /// The file of a clip has changed on disk.
     Changed {
@@ -356,6 +363,15 @@ impl Loader {
         thread::start(move || {
             let findings = crate::state::clip::check(&clip);
             outbox.send(Event::Checked { clip: id, findings });
+        });
+    }
+
+    /// Starts reducing a clip to keys.
+    pub fn reduce(&mut self, id: ClipId, clip: Arc<Clip>, how: Start) {
+        let outbox = self.outbox.clone();
+        thread::start(move || {
+            let started = Box::new(start(&clip, how, 0.0, false));
+            outbox.send(Event::Authored { clip: id, started });
         });
     }
 

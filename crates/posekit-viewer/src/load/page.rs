@@ -54,8 +54,7 @@ pub(super) fn read(reading: Reading, input: Input) {
                 return;
             }
             Input::Together { scene, others } => {
-                let opened = open_together(&reading, &name, (scene, others)).await;
-                reading.hand_in(opened);
+                open_together(&reading, &name, (scene, others)).await;
                 return;
             }
             Input::Path(address) if is_scene(&name) => {
@@ -88,20 +87,25 @@ const NO_PLACE: &str =
     "a page has no folders: open the scene together with the files that it names";
 
 /// A scene and the files that came with it.
-async fn open_together(
-    reading: &Reading,
-    name: &str,
-    (scene, others): (&Input, &[Input]),
-) -> Result<Opened, Stop> {
-    let bytes = given(scene).await?;
+async fn open_together(reading: &Reading, name: &str, (scene, others): (&Input, &[Input])) {
+    let bytes = match given(scene).await {
+        Ok(bytes) => bytes,
+        Err(stop) => {
+            reading.hand_in(Err(stop));
+            return;
+        }
+    };
     let mut files = Vec::new();
     for other in others {
-        files.push((job::name_of(other), given(other).await?));
+        // One that cannot be had is told as missing, if the scene names it.
+        if let Ok(bytes) = given(other).await {
+            files.push((job::name_of(other), bytes));
+        }
     }
     let read = read_scene((name, None), &bytes, among(&files));
+    let opened = read.map(|read| Opened::Scene(Box::new(read)));
+    reading.hand_in(opened.map_err(Stop::Failed));
     reading.open_others(&bytes, others);
-    read.map(|read| Opened::Scene(Box::new(read)))
-        .map_err(Stop::Failed)
 }
 
 /// A scene of the page's own origin, and the files that it names, which are looked for from there.

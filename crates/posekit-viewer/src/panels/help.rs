@@ -54,18 +54,17 @@ pub fn show(ctx: &egui::Context) -> bool {
         area.show(ui, |ui| {
             ui.horizontal_top(|ui| {
                 ui.spacing_mut().item_spacing.x = 8.0 * GAP;
-                ui.vertical(|ui| keys(ui, &GROUPS[..1]));
-                ui.vertical(|ui| {
-                    keys(ui, &GROUPS[1..2]);
-                });
-                ui.vertical(|ui| {
-                    keys(ui, &GROUPS[2..4]);
-                });
+                // Side by side as far as a laptop's screen goes.
+                for [first, second] in [[0, 5], [1, 6], [2, 3]] {
+                    ui.vertical(|ui| {
+                        keys(ui, &GROUPS[first..=first]);
+                        keys(ui, &GROUPS[second..=second]);
+                    });
+                }
                 ui.vertical(|ui| {
                     keys(ui, &GROUPS[4..5]);
                     mouse(ui);
                 });
-                ui.vertical(|ui| keys(ui, &GROUPS[5..]));
             });
         });
     });

@@ -442,10 +442,14 @@ fn keys_are_selected_in_a_box_deleted_and_added() {
             .iter()
             .all(|key| at(key).is_some_and(|t| (t - 40.0 / rate).abs() < 1e-6))
     );
+    window.hover_at(to);
+    window.step();
     press(&mut window, Modifiers::NONE, Key::X);
     assert_eq!(authored(&window).key_count(), count - selected.len());
     assert_eq!(times(authored(&window), Lane::Rotation(joints[0])).len(), 2);
     let place = summary_at(&window, 50.0 / rate);
+    window.hover_at(place);
+    window.step();
     for _ in 0..2 {
         click_once(&mut window, place);
     }
@@ -457,8 +461,8 @@ fn keys_are_selected_in_a_box_deleted_and_added() {
     );
 }
 
+/// A click within one step of the clock: two of them are a double click.
 fn click_once(window: &mut Window, at: Pos2) {
-    window.hover_at(at);
     for pressed in [true, false] {
         window.event(Event::PointerButton {
             pos: at,
@@ -466,8 +470,8 @@ fn click_once(window: &mut Window, at: Pos2) {
             pressed,
             modifiers: Modifiers::NONE,
         });
-        window.step();
     }
+    window.step();
 }
 
 #[test]
@@ -541,14 +545,14 @@ fn scenes_without_a_folder_take_the_files_along_that_came_with_them() {
 
 #[test]
 fn what_is_wrong_with_a_scene_is_told_with_its_place() {
-    let text = "format = \"posekit scene\"\nversion = 1\nframes = 30\n";
+    let text = "format = \"posekit scene\"\nversion = 1\nframes = 30\n[skeleton]\nfile = \"sample:walk\"\n";
     let input = Input::Bytes {
         name: "bad.posekit.toml".into(),
         bytes: text.as_bytes().into(),
     };
     let window = laptop(vec![input]);
     let told = viewer(&window).notices().shown();
-    let has_place = |text: &str| text.contains("bad.posekit.toml:3:1: frames");
+    let has_place = |text: &str| text.contains("bad.posekit.toml:3:1: unknown field `frames`");
     assert!(
         told.iter().any(|notice| has_place(&notice.text)),
         "{told:?}"
@@ -606,6 +610,7 @@ fn what_a_run_left_that_fell_over_is_opened_again() {
             break;
         }
     }
+    window.run_steps(60);
     assert_eq!(kept().len(), 1);
     // Another window beside it offers nothing: the first one lives.
     let beside = kept_in(&folder, Vec::new());
@@ -632,6 +637,14 @@ fn what_a_run_left_that_fell_over_is_opened_again() {
     std::fs::remove_dir_all(&folder).expect("removed");
 }
 
+/// Closes the clip in the list: its button is there while the pointer is over it.
+fn close_clip(window: &mut Window) {
+    window.hover_at(Pos2::new(128.0, 140.0));
+    window.run_steps(2);
+    window.get_by_label("Close").click();
+    window.run_steps(5);
+}
+
 #[test]
 fn closing_asks_where_something_is_not_saved() {
     let mut window = blank(Input::Sample("walk".into()));
@@ -652,14 +665,12 @@ fn closing_asks_where_something_is_not_saved() {
     };
     assert!(saved.ends_with("shot.posekit.toml"));
     press(&mut window, Modifiers::COMMAND, Key::Z);
-    window.get_by_label("Close").click();
-    window.run_steps(2);
+    close_clip(&mut window);
     assert!(viewer(&window).is_asking());
     window.get_by_label("Cancel").click();
     window.run_steps(2);
     assert_eq!(viewer(&window).session().clips().len(), 1);
-    window.get_by_label("Close").click();
-    window.run_steps(2);
+    close_clip(&mut window);
     window.get_by_label("Do not save").click();
     window.run_steps(2);
     assert!(viewer(&window).session().clips().is_empty());

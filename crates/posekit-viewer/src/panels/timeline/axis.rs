@@ -265,6 +265,10 @@ fn drag(ui: &Ui, view: &mut TimeView, axis: &Axis, response: &Response, session:
         ui.ctx().set_cursor_icon(CursorIcon::ResizeHorizontal);
     }
     if ui.input(|i| i.pointer.primary_pressed()) && response.is_pointer_button_down_on() {
+        // While an end is dragged the view does not follow it, or it would run away from the pointer.
+        if under.is_some() {
+            view.seen = Some((axis.start_secs, axis.secs_per_point));
+        }
         view.held = match under {
             Some(end) => session
                 .author(Authored::gesture)

@@ -15,7 +15,7 @@ use crate::command::KeysCommand;
 use crate::state::animate::edit::clipboard::{Clipboard, mirrored};
 use crate::state::animate::{Authored, KeyId, Owner};
 use crate::state::session::Session;
-use crate::theme::Palette;
+use crate::theme::{GAP, Palette};
 use axis::{Axis, RULER_HEIGHT, TimeView};
 use dope::Dope;
 use menu::Menu;
@@ -72,6 +72,7 @@ pub struct Timeline {
     rect: Option<Rect>,
     axis: Option<Axis>,
     pointer: Option<Pos2>,
+    is_waiting: bool,
 }
 
 impl Timeline {
@@ -80,6 +81,17 @@ impl Timeline {
     #[must_use]
     pub fn rect(&self) -> Option<Rect> {
         self.rect
+    }
+
+    /// Tells whether a clip is about to get its keys.
+    pub fn set_waiting(&mut self, is_waiting: bool) {
+        self.is_waiting = is_waiting;
+    }
+
+    /// Whether a clip is about to get its keys.
+    #[must_use]
+    pub fn is_waiting(&self) -> bool {
+        self.is_waiting
     }
 
     /// The window has no timeline now.
@@ -241,6 +253,15 @@ fn counted(count: usize) -> String {
 /// Shows the timeline in all the room that is left.
 pub fn show(ui: &mut Ui, session: &mut Session, timeline: &mut Timeline, asked: &mut Asked) {
     timeline.rect = Some(ui.max_rect());
+    if timeline.is_waiting {
+        ui.add_space(GAP);
+        ui.horizontal(|ui| {
+            ui.spinner();
+            ui.label("Reducing the motion to keys\u{2026}");
+        });
+        ui.take_available_space();
+        return;
+    }
     if session.authored().is_none() {
         egui::ScrollArea::vertical()
             .auto_shrink([false, false])
@@ -251,7 +272,8 @@ pub fn show(ui: &mut Ui, session: &mut Session, timeline: &mut Timeline, asked: 
     }
     bar::show(ui, session, timeline, asked);
     let rect = ui.available_rect_before_wrap();
-    ui.advance_cursor_after_rect(rect);
+    // All of it is the panel's, or it would shrink to its bar.
+    ui.allocate_rect(rect, egui::Sense::hover());
     let names_width = NAMES_WIDTH.min(0.35 * rect.width());
     let (names, keys) = rect.split_left_right_at_x(rect.left() + names_width);
     let (ruler, body) = keys.split_top_bottom_at_y(rect.top() + RULER_HEIGHT);
@@ -263,10 +285,9 @@ pub fn show(ui: &mut Ui, session: &mut Session, timeline: &mut Timeline, asked: 
         return;
     };
     timeline.axis = Some(axis);
-    timeline.pointer = ui
-        .input(|i| i.pointer.hover_pos())
-        .filter(|at| rect.contains(*at))
-        .or(timeline.pointer);
+    let pointer = ui.input(|i| i.pointer.hover_pos());
+    let is_here = |at: &Pos2| timeline.rect.is_some_and(|rect| rect.contains(*at));
+    timeline.pointer = pointer.filter(is_here).or(timeline.pointer);
     axis::ruler(ui, &mut timeline.time, &axis, ruler, session);
     let room = Room { names, body, axis };
     ui.painter()

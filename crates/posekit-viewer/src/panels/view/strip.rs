@@ -173,5 +173,9 @@ fn text(session: &Session) -> String {
     if is_fixed {
         return "The file gives this joint no channels to turn or move".to_owned();
     }
-    session.mode().hint().to_owned()
+    let hint = match session.handles() {
+        Handles::Targets => Mode::Ik.hint(),
+        Handles::None | Handles::Joints => session.mode().hint(),
+    };
+    hint.to_owned()
 }

@@ -343,7 +343,9 @@ impl Session {
                 authored.set_tracks(&name, None, changes, selection);
             }
         });
-        self.drop_pending();
+        // It is keyed: what was asked of limbs stays asked.
+        self.authoring.pending = None;
+        self.hold(None);
         joints.len()
     }
 
@@ -352,6 +354,11 @@ impl Session {
         let was_set = self.drop_pending_values();
         let was_pending = self.authoring.pending.take().is_some();
         if was_pending {
+            // Nor is a limb still asked to be where it was in it.
+            let mut goals = self.goals();
+            if goals.target.take().is_some() {
+                self.author(|authored| authored.choose_goals(goals));
+            }
             self.hold(None);
         }
         was_pending || was_set

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use egui::{Pos2, Rect};
 
 use super::super::axis::Axis;
+use super::super::counted;
 use crate::state::animate::edit::keys::{duplicated, moved, scaled};
 use crate::state::animate::{Authored, KeyId};
 use crate::state::edit::Gesture;
@@ -46,6 +47,8 @@ pub(super) struct Held {
     from_secs: f64,
     /// The time of the key that lands on a frame.
     anchor_secs: f64,
+    /// What was done last: by how much, and whether between frames.
+    done: Option<(f64, bool)>,
 }
 
 impl Held {
@@ -69,40 +72,41 @@ impl Held {
             keys,
             from_secs: axis.secs_at(at.x),
             anchor_secs: anchor.unwrap_or(first),
+            done: None,
         })
     }
 
     /// Brings the keys to where the pointer is. On frames, unless `is_free`.
-    pub(super) fn follow(&self, session: &mut Session, axis: &Axis, at: Pos2, is_free: bool) {
+    pub(super) fn follow(&mut self, session: &mut Session, axis: &Axis, at: Pos2, is_free: bool) {
         let now = axis.secs_at(at.x);
-        let by = self.shift(axis, now, is_free);
-        let count = match self.keys.len() {
-            1 => "a key".to_owned(),
-            count => format!("{count} keys"),
+        let amount = match self.verb {
+            Verb::Move | Verb::Duplicate => self.shift(axis, now, is_free),
+            Verb::Scale { pivot_secs } => self.factor(axis, pivot_secs, now),
         };
+        // A pointer that rests changes nothing.
+        if self.done == Some((amount, is_free)) {
+            return;
+        }
+        self.done = Some((amount, is_free));
+        let count = counted(self.keys.len());
+        let (gesture, keys, verb) = (self.gesture, &self.keys, self.verb);
         session.author(|authored| {
             // From where the keys were: steps of a drag do not add up.
-            authored.give_up(self.gesture);
-            let (name, edit) = match self.verb {
-                Verb::Move if by == 0.0 => return,
-                Verb::Move => (format!("Move {count}"), moved(authored, &self.keys, by)),
+            authored.give_up(gesture);
+            let (name, edit) = match verb {
+                Verb::Move => (format!("Move {count}"), moved(authored, keys, amount)),
                 Verb::Duplicate => (
                     format!("Duplicate {count}"),
-                    duplicated(authored, &self.keys, by),
+                    duplicated(authored, keys, amount),
                 ),
-                Verb::Scale { pivot_secs } => {
-                    let Some(factor) = self.factor(pivot_secs, now).filter(|f| *f != 1.0) else {
-                        return;
-                    };
-                    let about = (pivot_secs, factor);
-                    (
-                        format!("Scale {count}"),
-                        scaled(authored, &self.keys, about, !is_free),
-                    )
-                }
+                Verb::Scale { .. } if (amount - 1.0).abs() < 1e-9 => return,
+                Verb::Scale { pivot_secs } => (
+                    format!("Scale {count}"),
+                    scaled(authored, keys, (pivot_secs, amount), !is_free),
+                ),
             };
             if let Some(edit) = edit {
-                authored.set_tracks(&name, Some(self.gesture), edit.changes, edit.selection);
+                authored.set_tracks(&name, Some(gesture), edit.changes, edit.selection);
             }
         });
     }
@@ -116,10 +120,14 @@ impl Held {
         }
     }
 
-    fn factor(&self, pivot_secs: f64, now: f64) -> Option<f64> {
-        let factor = (now - pivot_secs) / (self.from_secs - pivot_secs);
-        // Keys are not turned round: at the pivot they are as near as can be told apart.
-        (factor.is_finite()).then_some(factor.max(1e-3))
+    /// By how much times are scaled. A pointer that began near the pivot counts as a little away from
+    /// it: the keys would fly off otherwise. Keys are not turned round, but come as near to the pivot as
+    /// can be told apart.
+    fn factor(&self, axis: &Axis, pivot_secs: f64, now: f64) -> f64 {
+        const LEAST_POINTS: f32 = 24.0;
+        let away = self.from_secs - pivot_secs;
+        let arm = away.abs().max(axis.secs_of(LEAST_POINTS)).copysign(away);
+        (1.0 + (now - self.from_secs) / arm).max(1e-3)
     }
 
     /// Gives it up: the keys are where they were.

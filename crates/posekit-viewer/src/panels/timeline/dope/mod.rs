@@ -127,7 +127,7 @@ impl Dope {
         self.cancel(session);
         if let Some((at, axis)) = self.seen {
             self.held = Held::take(session, (verb, Until::Click), &axis, (at, None));
-            if let Some(held) = &self.held {
+            if let Some(held) = &mut self.held {
                 held.follow(session, &axis, at, false);
             }
         }
@@ -245,7 +245,7 @@ fn interact(ui: &Ui, room: &Room, response: &Response, session: &mut Session, do
         dope.cancel(session);
         return;
     }
-    if let Some(held) = &dope.held {
+    if let Some(held) = &mut dope.held {
         held.follow(session, &room.axis, pointer, is_free);
         ui.ctx().set_cursor_icon(CursorIcon::ResizeHorizontal);
         let is_over = match held.until {
