@@ -310,3 +310,60 @@ fn ways_between_orientations_are_tabled() {
     folder.fail(2, &["slerp", "0,0,0", "here"]);
     folder.fail(2, &["slerp", "--preset", "gimbal", "--order", "XYX2"]);
 }
+
+/// Lights and props of a scene are in its pictures, its cameras are chosen by name, and what cannot be
+/// drawn is said.
+#[test]
+fn lights_props_and_cameras_of_a_scene_make_its_picture() {
+    let folder = folder();
+    let more = "\n[[camera]]\nname = \"top\"\nposition = [0, 9, 1]\ntarget = [0, 1, 0]\n";
+    let light = "\n[[light]]\nname = \"red\"\ncolor = [1, 0, 0]\n";
+    let prop = |shape: &str| {
+        format!("\n[[prop]]\nname = \"thing\"\nshape = \"{shape}\"\ntranslation = [1, 1, 0]\n")
+    };
+    let picture = |text: String, more: &[&str]| {
+        folder.write("set.posekit.toml", text);
+        let mut args = vec!["render", "set.posekit.toml", "-o", "set.png"];
+        args.extend(["--renderer", "cpu", "--size", "64x48"]);
+        args.extend(more);
+        let ran = folder.run(&args);
+        assert_eq!(ran.code, Some(0), "{}", ran.stderr);
+        let bytes = std::fs::read(folder.path().join("set.png")).unwrap();
+        (bytes, ran.stderr)
+    };
+    let scene = |parts: &[&str]| [&[SCENE, more], parts].concat().concat();
+    let pictures = [
+        picture(scene(&[]), &[]),
+        picture(scene(&[light]), &[]),
+        picture(scene(&[&prop("box")]), &[]),
+        picture(scene(&[&prop("sphere")]), &[]),
+        picture(scene(&[]), &["--camera", "top"]),
+    ];
+    for (a, (one, said)) in pictures.iter().enumerate() {
+        assert!(!said.contains("warning"), "{said}");
+        for (b, (other, _)) in pictures.iter().enumerate() {
+            assert!(a == b || one != other, "{a} and {b} are the same picture");
+        }
+    }
+    // `top` is a camera of the scene, and a view where it is not.
+    let (named, _) = picture(SCENE.to_owned(), &["--camera", "top"]);
+    assert_ne!(named, pictures[4].0);
+    let (as_box, said) = picture(scene(&[&prop("chair.obj")]), &[]);
+    assert_eq!(as_box, pictures[2].0);
+    assert!(
+        said.contains("prop 'thing'") && said.contains("chair.obj"),
+        "{said}"
+    );
+    let error = folder.fail(
+        2,
+        &[
+            "render",
+            "set.posekit.toml",
+            "-o",
+            "x.png",
+            "--camera",
+            "moon",
+        ],
+    );
+    assert!(error.contains("close, top"), "{error}");
+}

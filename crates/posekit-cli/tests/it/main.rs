@@ -27,4 +27,6 @@ mod render;
 mod robots;
 #[cfg(unix)]
 mod serve;
+#[cfg(feature = "window")]
+mod shots;
 mod whole_files;

@@ -48,7 +48,7 @@ impl Viewer {
                 Page::Orientations => self.interpolation.scene(self.session.look()),
                 Page::Clip => self.interpolation.clip.scene(),
             },
-            _ => self.session.scene(),
+            _ => self.session.picture(),
         }
     }
 

@@ -39,15 +39,15 @@ pub fn show(ui: &mut Ui, session: &mut Session, checking: Checking, asked: &mut 
                 ik::show(ui, session, asked);
                 row::divider(ui);
             }
+            if session.shows_things() {
+                things::show(ui, session);
+                row::divider(ui);
+            }
             if session.authored().is_some() {
                 scene::show(ui, session, asked);
                 row::divider(ui);
             } else if matches!(session.mode(), Mode::Pose | Mode::Ik) {
                 edit::show(ui, session, asked);
-                row::divider(ui);
-            }
-            if session.shows_things() {
-                things::show(ui, session);
                 row::divider(ui);
             }
             joint(ui, session, &clip, asked);

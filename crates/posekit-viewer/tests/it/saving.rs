@@ -101,6 +101,7 @@ fn a_video_is_exported_in_the_background() {
         format: VideoFormat::Gif,
         size: ExportSize::Small,
         fps: 24,
+        ..ExportOptions::default()
     };
     let take = Take::of(&session, &options);
     let frames = take.frame_count();

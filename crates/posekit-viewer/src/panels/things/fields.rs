@@ -6,7 +6,8 @@ use posekit::rotation::EulerOrder;
 use posekit_render::color::{linear_from_srgb, srgb_from_linear};
 
 use super::super::row;
-use crate::state::animate::{Lane, LaneValue, Owner};
+use crate::state::animate::place::is_simple_shape;
+use crate::state::animate::{Authored, Lane, LaneValue, Owner};
 use crate::state::edit::Gesture;
 use crate::state::session::{KeyState, Session};
 use crate::state::things::{Part, Picked};
@@ -21,6 +22,7 @@ const FOV_DEG: std::ops::RangeInclusive<f64> = 1.0..=150.0;
 /// Shows the name and the properties of what is picked.
 pub(super) fn show(ui: &mut Ui, session: &mut Session, picked: Picked) {
     name(ui, session, picked.owner);
+    mesh_note(ui, session, picked.owner);
     for lane in picked.owner.lanes() {
         let Some(value) = session.value_of(lane) else {
             continue;
@@ -58,9 +60,20 @@ pub(super) fn show(ui: &mut Ui, session: &mut Session, picked: Picked) {
     }
 }
 
+/// What stands for a mesh file, and for which.
+fn mesh_note(ui: &mut Ui, session: &Session, owner: Owner) {
+    let Owner::Prop(index) = owner else { return };
+    let scene = session.authored().map(Authored::scene);
+    let shape = scene.and_then(|scene| scene.props.get(index).map(|prop| &prop.shape));
+    if let Some(file) = shape.filter(|shape| !is_simple_shape(shape)) {
+        let says = format!("Mesh files are not read yet: a box stands for {file}");
+        row::empty_note(ui, &says);
+    }
+}
+
 /// The name is taken when the field is left.
 fn name(ui: &mut Ui, session: &mut Session, owner: Owner) {
-    let Some(scene) = session.authored().map(|it| it.scene()) else {
+    let Some(scene) = session.authored().map(Authored::scene) else {
         return;
     };
     let now = match owner {

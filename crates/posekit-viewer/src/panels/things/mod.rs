@@ -20,7 +20,7 @@ pub fn show(ui: &mut Ui, session: &mut Session) {
     let Some(owners) = session.authored().map(|it| it.owners_around()) else {
         return;
     };
-    row::heading(ui, "Scene", |ui| {
+    row::heading(ui, "Cameras, lights, props", |ui| {
         let menu = egui::containers::menu::MenuButton::new("Add");
         let (button, _) = menu.ui(ui, |ui| {
             for what in NewThing::ALL {
@@ -42,10 +42,24 @@ pub fn show(ui: &mut Ui, session: &mut Session) {
             thing_row(ui, session, owner);
         }
     });
-    if let Some(picked) = session.picked() {
+    let picked = session.picked();
+    if let Some(picked) = picked {
         ui.add_space(GAP);
-        fields::show(ui, session, picked);
+        let fields = ui.scope(|ui| fields::show(ui, session, picked)).response;
+        // What is picked in the view may have its numbers out of sight.
+        if scrolled_to(ui) != Some(picked) {
+            ui.scroll_to_rect(fields.rect, None);
+        }
     }
+    ui.data_mut(|data| data.insert_temp(egui::Id::unique(SCROLLED_TO), picked));
+}
+
+/// Under this name egui remembers whose numbers were scrolled to.
+const SCROLLED_TO: &str = "thing scrolled to";
+
+fn scrolled_to(ui: &Ui) -> Option<Picked> {
+    let kept: Option<Option<Picked>> = ui.data(|data| data.get_temp(egui::Id::unique(SCROLLED_TO)));
+    kept.flatten()
 }
 
 fn thing_row(ui: &mut Ui, session: &mut Session, owner: Owner) {

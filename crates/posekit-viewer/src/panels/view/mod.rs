@@ -74,6 +74,9 @@ pub fn show(
     }
     if !gizmo.is_held {
         match thing {
+            Some(_) if response.double_clicked() => {
+                crate::command::apply(Command::FrameSelected, session);
+            }
             Some(picked) if response.clicked() => session.pick(Some(picked)),
             _ => click(ui, &response, session, hovered),
         }

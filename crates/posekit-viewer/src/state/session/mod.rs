@@ -378,14 +378,19 @@ impl Session {
         self.camera.look_from(view, &self.stage, self.aspect);
     }
 
-    /// Takes the selected joint into the picture, or everything when none is selected.
+    /// Takes the selected joint, or the camera, light or prop that is picked, into the picture; everything
+    /// when there is neither.
     pub fn frame_selected(&mut self) {
-        let Some(joint) = self.selected() else {
-            self.reframe();
-            return;
-        };
         let time = self.stage_time_secs();
-        if let Some(point) = self.joint_position(joint) {
+        let point = match (self.picked_place(), self.selected()) {
+            (Some(place), _) => Some(place),
+            (None, Some(joint)) => self.joint_position(joint),
+            (None, None) => {
+                self.reframe();
+                return;
+            }
+        };
+        if let Some(point) = point {
             let radius = JOINT_FRAME_STATURES * self.stage.stature();
             self.camera.frame_point(point, radius, &self.stage, time);
         }
@@ -452,6 +457,14 @@ impl Session {
     pub fn scene(&self) -> Scene {
         self.stage
             .scene_from(self.stage_time_secs(), self.view_camera())
+    }
+
+    /// The scene now as a picture of it shows it: by the camera that is looked through, if there is one,
+    /// without the margin around its frame.
+    #[must_use]
+    pub fn picture(&self) -> Scene {
+        let camera = self.scene_camera().unwrap_or_else(|| self.view_camera());
+        self.stage.scene_from(self.stage_time_secs(), camera)
     }
 
     /// The time of a frame of the active clip.

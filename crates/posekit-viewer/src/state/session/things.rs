@@ -5,6 +5,7 @@
 //! keyed takes the value for good, and one that is keyed shows it until it is keyed or another time is
 //! shown.
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
 use egui::Pos2;
@@ -12,7 +13,7 @@ use glam::{DVec3, Quat, Vec3};
 use posekit::keyframe::edit::SAME_TIME_SECS;
 use posekit_formats::scene::Scene;
 use posekit_render::camera::{Camera, Projection};
-use posekit_render::stage::{Surroundings, keyed_camera};
+use posekit_render::stage::{LIGHT_FULL_AT, Surroundings, keyed_camera};
 
 use super::{Handles, Session};
 use crate::gizmo::{Drag, Gizmo, Handle, Placement, Snap, Tool, Viewport};
@@ -31,6 +32,9 @@ const FRAME_SHARE: f32 = 0.92;
 
 /// The side of a new prop, in statures.
 const PROP_SIDE: f32 = 0.3;
+
+/// Where in the view a new light is, in thousandths from the left and from the top.
+const LIGHT_IN_VIEW: (f32, f32) = (250.0, 220.0);
 
 /// All of a session that is about cameras, lights and props.
 #[derive(Debug)]
@@ -113,11 +117,13 @@ impl Session {
 
     /// The scene of the active clip with values that are not keyed yet.
     #[must_use]
-    pub fn scene_shown(&self) -> Option<Scene> {
+    pub fn scene_shown(&self) -> Option<Cow<'_, Scene>> {
         let scene = self.authored()?.scene();
-        let pending = self.things.pending.iter().flat_map(|it| &it.values);
-        let values = pending.map(|(lane, value)| (*lane, *value));
-        Some(with_values(scene, values))
+        let Some(pending) = &self.things.pending else {
+            return Some(Cow::Borrowed(scene));
+        };
+        let values = pending.values.iter().map(|(lane, value)| (*lane, *value));
+        Some(Cow::Owned(with_values(scene, values)))
     }
 
     /// Cameras, lights and props as they stand now.
@@ -350,13 +356,15 @@ impl Session {
                 }),
             },
             NewThing::Light => {
-                let (right, _, back) = view.axes();
-                let level = |v: Vec3| Vec3::new(v.x, 0.0, v.z).normalize_or_zero();
-                let away = level(back) * 1.6 - level(right) * 1.6;
-                let mut position = focus + away * stature;
-                position.y = floor + 2.2 * stature;
+                // In sight, at the upper left, nearer than the figure.
+                let (origin, direction) = view.ray(LIGHT_IN_VIEW, (1000, 1000));
+                let depth = 0.75 * view.eye.distance(focus);
+                let position = round(origin + direction * depth, stature);
+                let full_at = f64::from(LIGHT_FULL_AT * stature);
+                let strength = (position.distance(focus.as_dvec3()) / full_at).powi(2);
                 Kind::Light {
-                    position: round(position, stature),
+                    position,
+                    strength: (strength.clamp(0.05, 100.0) * 100.0).round() / 100.0,
                 }
             }
             NewThing::Box | NewThing::Sphere => {
@@ -431,6 +439,11 @@ impl Session {
                 Tool::Move
             },
         })
+    }
+
+    /// Where what is picked stands.
+    pub(super) fn picked_place(&self) -> Option<Vec3> {
+        Some(self.placement_of(self.picked()?)?.position)
     }
 
     fn placement_of(&self, picked: Picked) -> Option<Placement> {
@@ -594,7 +607,12 @@ impl Session {
                 (Lane::CameraTarget(index), view.target),
             ]
             .map(|(lane, at)| (lane, LaneValue::Vector(tidy(at))));
-            self.set_values("Camera to view", &values, None);
+            if self.animate().auto_key {
+                // Where it stands and what it looks at belong together, changed or not.
+                self.put_keys("Camera to view", &values, None);
+            } else {
+                self.set_values("Camera to view", &values, None);
+            }
         }
         self.things.looks_through = Some(index);
     }

@@ -26,6 +26,8 @@ pub enum Kind {
     Light {
         /// Where it stands.
         position: DVec3,
+        /// Factor of its colour.
+        strength: f64,
     },
     /// A box of a certain side.
     Box {
@@ -60,10 +62,11 @@ pub fn add(scene: &mut Scene, kind: Kind) -> Owner {
             scene.cameras.push(Camera { name, view });
             Owner::Camera(scene.cameras.len() - 1)
         }
-        Kind::Light { position } => {
+        Kind::Light { position, strength } => {
             let name = free_name("light", scene.lights.iter().map(|it| it.name.as_str()));
             let shine = KeyedLight {
                 position: Property::Fixed(position),
+                strength: Property::Fixed(strength),
                 ..KeyedLight::default()
             };
             scene.lights.push(Light { name, shine });
