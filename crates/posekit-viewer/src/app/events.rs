@@ -49,7 +49,9 @@ impl Viewer {
                     self.take_clip(ctx, begun.unwrap_or(purpose), *clip, *thumbnail);
                 }
                 Event::Robot(robot) => self.take_robot(*robot, now),
-                Event::FilledIn(filled) => self.interpolation.clip.take(filled.map(|filled| *filled)),
+                Event::FilledIn(filled) => {
+                    self.interpolation.clip.take(filled.map(|filled| *filled))
+                }
                 Event::Failed { message } => {
                     self.notices.add(NoticeKind::Failure, message, now);
                 }

@@ -122,7 +122,10 @@ fn kept_frames_stay_and_others_are_filled() {
     let plan = FillPlan::every(10, walk.frame_count()).unwrap();
     assert_eq!(plan.kept().last(), Some(&(walk.frame_count() - 1)));
     // The signs of a motion's quaternions mean nothing: slerp that looks at them goes anywhere.
-    for method in Method::ALL.into_iter().filter(|method| *method != Method::RawSlerp) {
+    for method in Method::ALL
+        .into_iter()
+        .filter(|method| *method != Method::RawSlerp)
+    {
         let filled = fill(&walk, &plan, |_| method);
         assert_eq!(filled.frame_count(), walk.frame_count());
         let kept = FillError::between(&walk, &filled, plan.kept());
@@ -223,7 +226,9 @@ fn every_way_is_that_of_an_independent_implementation() {
                 let expected = DMat3::from_cols_array(rows).transpose();
                 let found = way.at(t).matrix;
                 let gap = (found - expected).to_cols_array();
-                let most = gap.iter().fold(0.0_f64, |most, entry| most.max(entry.abs()));
+                let most = gap
+                    .iter()
+                    .fold(0.0_f64, |most, entry| most.max(entry.abs()));
                 assert!(most < 1e-10, "{word} at {t}: {most:e}");
             }
             *compared.entry(word.clone()).or_insert(0) += 1;
@@ -243,7 +248,11 @@ fn slerp_that_looks_at_no_sign_goes_as_far_as_was_said() {
         }
         let short = angle.min(360.0 - angle);
         let slerp = path(Method::Slerp, &ends, 8);
-        assert!(slerp.iter().all(|step| (step.speed_deg - short).abs() < 1e-5));
+        assert!(
+            slerp
+                .iter()
+                .all(|step| (step.speed_deg - short).abs() < 1e-5)
+        );
     }
 }
 

@@ -75,7 +75,9 @@ fn its_right_side_is_the_left_one_half_a_cycle_later() {
         let name = skeleton.name(joint).to_owned();
         let other = match name.strip_prefix("Left") {
             Some(rest) => format!("Right{rest}"),
-            None => name.strip_prefix("Right").map_or(name.clone(), |rest| format!("Left{rest}")),
+            None => name
+                .strip_prefix("Right")
+                .map_or(name.clone(), |rest| format!("Left{rest}")),
         };
         let other = skeleton.find(&other).expect("it has two sides");
         for frame in 0..2 * CYCLE {
@@ -98,7 +100,12 @@ fn its_poses_are_contact_down_passing_and_up() {
     };
     let [contact, down, passing, up] = [0, 6, 15, 24];
     let apart = |frame| (at(frame, "LeftFoot").z - at(frame, "RightFoot").z).abs();
-    assert!(apart(contact) > 0.5 && apart(passing) < 0.15, "{} {}", apart(contact), apart(passing));
+    assert!(
+        apart(contact) > 0.5 && apart(passing) < 0.15,
+        "{} {}",
+        apart(contact),
+        apart(passing)
+    );
     let height = |frame| at(frame, "Hips").y;
     assert!(height(down) < height(contact) && height(passing) > height(up));
     assert!(height(up) > height(contact));
@@ -114,12 +121,22 @@ fn feet_stay_where_they_stand_and_over_the_floor() {
     let (_, motion) = authored();
     let global = motion.to_global();
     for (side, lands) in [("Left", 6), ("Right", 36)] {
-        let joint = |part: &str| motion.skeleton().find(&format!("{side}{part}")).expect("a joint");
+        let joint = |part: &str| {
+            motion
+                .skeleton()
+                .find(&format!("{side}{part}"))
+                .expect("a joint")
+        };
         let (toes, tip, ankle) = (joint("Toes"), joint("Toes_end"), joint("Foot"));
         for frame in 0..4 * CYCLE {
             let low = global.position(frame, tip).y;
-            assert!(low > 0.0, "{side} toes are under the floor at {frame}: {low}");
-            assert!(global.position(frame, toes).y > 0.01 && global.position(frame, ankle).y > 0.06);
+            assert!(
+                low > 0.0,
+                "{side} toes are under the floor at {frame}: {low}"
+            );
+            assert!(
+                global.position(frame, toes).y > 0.01 && global.position(frame, ankle).y > 0.06
+            );
         }
         for cycle in 0..3 {
             let from = cycle * CYCLE + lands;

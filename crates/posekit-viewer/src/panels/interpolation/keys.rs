@@ -21,7 +21,11 @@ pub(super) fn show(ui: &mut Ui, lab: &mut InterpolationLab) {
     row::heading(ui, "Orientations", |ui| {
         order(ui, lab);
         let swap = Button::new(RichText::new("Swap").small());
-        if ui.add(swap).on_hover_text("Start and end change places").clicked() {
+        if ui
+            .add(swap)
+            .on_hover_text("Start and end change places")
+            .clicked()
+        {
             lab.begin_step();
             lab.change(crate::state::interpolation::Case::swap);
         }
@@ -156,7 +160,13 @@ fn title(
 }
 
 fn letter(lab: &InterpolationLab, axis: usize) -> (char, egui::Color32) {
-    let axis = lab.case().order().axes().get(axis).copied().unwrap_or(Axis::X);
+    let axis = lab
+        .case()
+        .order()
+        .axes()
+        .get(axis)
+        .copied()
+        .unwrap_or(Axis::X);
     let color = match axis {
         Axis::X => CURVES[0],
         Axis::Y => CURVES[1],
@@ -255,9 +265,14 @@ fn apply(
 
 fn add_button(ui: &mut Ui, lab: &mut InterpolationLab) {
     let is_full = lab.case().keys_deg().len() >= MOST_KEYS;
-    let says = "Another key after the end. All methods go from key to key; squad looks at the keys around";
+    let says =
+        "Another key after the end. All methods go from key to key; squad looks at the keys around";
     let button = Button::new("Add a key");
-    if ui.add_enabled(!is_full, button).on_hover_text(says).clicked() {
+    if ui
+        .add_enabled(!is_full, button)
+        .on_hover_text(says)
+        .clicked()
+    {
         lab.begin_step();
         lab.change(crate::state::interpolation::Case::add_key);
         lab.set_span(Span::AllKeys);

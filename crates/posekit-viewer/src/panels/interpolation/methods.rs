@@ -1,6 +1,8 @@
 //! The right side: the methods with their colours, which of them are shown, and their numbers.
 
-use egui::{Align2, Button, Color32, FontId, Rect, RichText, ScrollArea, Sense, Stroke, Ui, pos2, vec2};
+use egui::{
+    Align2, Button, Color32, FontId, Rect, RichText, ScrollArea, Sense, Stroke, Ui, pos2, vec2,
+};
 use posekit::inbetween::Method;
 
 use super::super::row;
@@ -16,16 +18,29 @@ const ROW: f32 = 25.0;
 /// The columns of numbers: heading, and what it is.
 const COLUMNS: [(&str, &str); 4] = [
     ("strays", "How far it is from slerp at most, in degrees"),
-    ("slowest", "How fast it turns at least, in degrees for a way from key to key"),
-    ("fastest", "How fast it turns at most, in degrees for a way from key to key"),
-    ("det", "The least determinant of what it makes: 1 for a rotation"),
+    (
+        "slowest",
+        "How fast it turns at least, in degrees for a way from key to key",
+    ),
+    (
+        "fastest",
+        "How fast it turns at most, in degrees for a way from key to key",
+    ),
+    (
+        "det",
+        "The least determinant of what it makes: 1 for a rotation",
+    ),
 ];
 
 /// Shows it.
 pub(super) fn show(ui: &mut Ui, lab: &mut InterpolationLab) {
     row::heading(ui, "Methods", |ui| {
         for (name, says, choose) in [
-            ("None", "Show slerp alone", (|method| method == Method::Slerp) as fn(Method) -> bool),
+            (
+                "None",
+                "Show slerp alone",
+                (|method| method == Method::Slerp) as fn(Method) -> bool,
+            ),
             ("All", "Show every method", |_| true),
         ] {
             let button = Button::new(RichText::new(name).small());
@@ -72,7 +87,8 @@ fn headings(ui: &mut Ui, columns: &[f32; 4]) {
             palette.quiet,
         );
         let id = ui.scope_id().with(name);
-        ui.interact(written.expand(3.0), id, Sense::hover()).on_hover_text(says);
+        ui.interact(written.expand(3.0), id, Sense::hover())
+            .on_hover_text(says);
     }
 }
 
@@ -80,8 +96,7 @@ fn method_row(ui: &mut Ui, lab: &mut InterpolationLab, method: Method, columns: 
     let is_shown = lab.is_shown(method);
     let palette = Palette::in_ui(ui);
     let word = method.to_string();
-    let (rect, response) =
-        ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
     response.widget_info(|| {
         egui::WidgetInfo::selected(egui::Role::CheckBox, true, is_shown, word.clone())
     });
@@ -89,8 +104,15 @@ fn method_row(ui: &mut Ui, lab: &mut InterpolationLab, method: Method, columns: 
         ui.painter().rect_filled(rect, 5.0, palette.hover);
     }
     swatch(ui, rect, color(hex_of(method)), is_shown);
-    let text = if is_shown { palette.text } else { palette.quiet };
-    let name = Rect::from_min_max(rect.min + vec2(24.0, 0.0), pos2(rect.left() + columns[0] - 30.0, rect.bottom()));
+    let text = if is_shown {
+        palette.text
+    } else {
+        palette.quiet
+    };
+    let name = Rect::from_min_max(
+        rect.min + vec2(24.0, 0.0),
+        pos2(rect.left() + columns[0] - 30.0, rect.bottom()),
+    );
     row::text_in(ui, name, RichText::new(&word), text);
     if let Some(way) = lab.way(method) {
         for (number, end) in numbers(way).into_iter().zip(columns) {
@@ -154,13 +176,23 @@ fn numbers(way: &Way) -> [Number; 4] {
 pub(super) const fn says(method: Method) -> &'static str {
     match method {
         Method::Slerp => "R1 exp(t log(R1^T R2)): the shortest way at an even pace",
-        Method::RawSlerp => "Slerp that does not look at the quaternions' signs: it may go the long way round",
-        Method::Nlerp => "The chord between the quaternions, normalised: slerp's way at an uneven pace",
-        Method::RawLerp => "The chord between the quaternions as it is: it scales. Speed and straying are those of its rotation",
-        Method::Matrix => "The nine elements: no rotation in between. Speed and straying are those of the nearest rotation",
+        Method::RawSlerp => {
+            "Slerp that does not look at the quaternions' signs: it may go the long way round"
+        }
+        Method::Nlerp => {
+            "The chord between the quaternions, normalised: slerp's way at an uneven pace"
+        }
+        Method::RawLerp => {
+            "The chord between the quaternions as it is: it scales. Speed and straying are those of its rotation"
+        }
+        Method::Matrix => {
+            "The nine elements: no rotation in between. Speed and straying are those of the nearest rotation"
+        }
         Method::RotationVector => "The three components of the rotation vector",
         Method::Euler(_) => "Three angles, each by itself",
-        Method::Squad => "A curve through the keys around as well; between two keys alone it is slerp",
+        Method::Squad => {
+            "A curve through the keys around as well; between two keys alone it is slerp"
+        }
         _ => "",
     }
 }
@@ -184,7 +216,8 @@ fn notes(ui: &mut Ui, lab: &InterpolationLab) {
         {
             ui.copy_text(lab.command());
         }
-        let says = "Every step of the shown methods from start to end, as posekit slerp --csv prints it";
+        let says =
+            "Every step of the shown methods from start to end, as posekit slerp --csv prints it";
         if ui.button("Copy numbers").on_hover_text(says).clicked() {
             ui.copy_text(lab.numbers());
         }

@@ -57,11 +57,15 @@ impl Quantity {
     #[must_use]
     pub const fn says(self) -> &'static str {
         match self {
-            Self::Speed => "How fast it turns, in degrees for a way from key to key; of the nearest rotation",
+            Self::Speed => {
+                "How fast it turns, in degrees for a way from key to key; of the nearest rotation"
+            }
             Self::Deviation => "How far from slerp, in degrees; of the nearest rotation",
             Self::Determinant => "1 for a rotation: the factor by which volumes change",
             Self::Shear => "How far axes are from right angles, in degrees",
-            Self::Angles => "The Euler angles of slerp's orientations in the order chosen at the left: what an animator sees in a graph editor",
+            Self::Angles => {
+                "The Euler angles of slerp's orientations in the order chosen at the left: what an animator sees in a graph editor"
+            }
         }
     }
 

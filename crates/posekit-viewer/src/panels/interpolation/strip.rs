@@ -61,10 +61,21 @@ fn card(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
 
 fn pages(ui: &mut Ui, lab: &mut InterpolationLab) {
     for (page, name, says) in [
-        (Page::Orientations, "Orientations", "The ways between orientations of your own"),
-        (Page::Clip, "On a clip", "Keep some frames of the active clip, fill in the others by each method, and compare"),
+        (
+            Page::Orientations,
+            "Orientations",
+            "The ways between orientations of your own",
+        ),
+        (
+            Page::Clip,
+            "On a clip",
+            "Keep some frames of the active clip, fill in the others by each method, and compare",
+        ),
     ] {
-        if row::segment(ui, name, lab.page() == page).on_hover_text(says).clicked() {
+        if row::segment(ui, name, lab.page() == page)
+            .on_hover_text(says)
+            .clicked()
+        {
             lab.set_page(page);
         }
     }
@@ -82,7 +93,10 @@ fn pictures(ui: &mut Ui, lab: &mut InterpolationLab) {
         for (axis, says) in [
             (Axis::X, "The path of the tip of the red axis"),
             (Axis::Y, "The path of the tip of the green axis"),
-            (Axis::Z, "The path of the tip of the blue axis, where the nose points"),
+            (
+                Axis::Z,
+                "The path of the tip of the blue axis, where the nose points",
+            ),
         ] {
             let response = row::segment(ui, &axis.letter().to_string(), lab.tip() == axis);
             if response.on_hover_text(says).clicked() {
@@ -111,7 +125,10 @@ fn rings(ui: &mut Ui, lab: &mut InterpolationLab, asked: &mut Asked) {
         (Space::World, "World", "The rings' axes are the world's"),
         (Space::Local, "Local", "The rings' axes are the body's"),
     ] {
-        if row::segment(ui, name, lab.space() == space).on_hover_text(says).clicked() {
+        if row::segment(ui, name, lab.space() == space)
+            .on_hover_text(says)
+            .clicked()
+        {
             lab.set_space(space);
         }
     }
@@ -125,8 +142,16 @@ fn rings(ui: &mut Ui, lab: &mut InterpolationLab, asked: &mut Asked) {
 
 fn arrangements(ui: &mut Ui, lab: &mut InterpolationLab) {
     for (arrangement, name, says) in [
-        (Compare::SideBySide, "Side by side", "The figures next to one another"),
-        (Compare::Overlaid, "Overlaid", "All figures where the clip says"),
+        (
+            Compare::SideBySide,
+            "Side by side",
+            "The figures next to one another",
+        ),
+        (
+            Compare::Overlaid,
+            "Overlaid",
+            "All figures where the clip says",
+        ),
     ] {
         let response = row::segment(ui, name, lab.clip.arrangement() == arrangement);
         if response.on_hover_text(says).clicked() {

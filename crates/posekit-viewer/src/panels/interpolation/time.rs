@@ -35,9 +35,11 @@ pub(super) fn show(ui: &mut Ui, lab: &mut InterpolationLab, asked: &mut Asked) {
         if toggle_icon(ui, icon, &tip(says, Command::ToggleLoop), loops).clicked() {
             asked.command(Command::ToggleLoop);
         }
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| match lab.page() {
-            Page::Orientations => way(ui, lab),
-            Page::Clip => frames(ui, lab),
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            match lab.page() {
+                Page::Orientations => way(ui, lab),
+                Page::Clip => frames(ui, lab),
+            }
         });
     });
 }
@@ -82,7 +84,11 @@ fn spans(ui: &mut Ui, lab: &mut InterpolationLab) {
         // From the right: the last comes first.
         for (span, name, says) in [
             (Span::AllKeys, "All keys", "t runs through all keys"),
-            (Span::Pair, "Start to end", "t runs from the start to the end"),
+            (
+                Span::Pair,
+                "Start to end",
+                "t runs from the start to the end",
+            ),
         ] {
             let response = row::segment(ui, name, lab.span() == span);
             if response.on_hover_text(says).clicked() {
@@ -97,7 +103,10 @@ fn frames(ui: &mut Ui, lab: &mut InterpolationLab) {
     let transport = &mut lab.clip.transport;
     let (last, frame) = (transport.last_frame(), transport.frame());
     let text = RichText::new(format!("frame {frame} / {last}")).monospace();
-    ui.add_sized(vec2(150.0, 22.0), egui::Label::new(text.color(palette.text)));
+    ui.add_sized(
+        vec2(150.0, 22.0),
+        egui::Label::new(text.color(palette.text)),
+    );
     ui.spacing_mut().slider_width = ui.available_width().max(40.0);
     let mut shown = frame;
     let response = ui.add_enabled(

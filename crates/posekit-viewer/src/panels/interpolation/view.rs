@@ -92,7 +92,8 @@ fn interact(
     let shapes = [0, 1].map(|end| gizmo::shapes(&lab.gizmo(end), &viewport));
     let pick = |place| {
         let picked = shapes.iter().enumerate();
-        let mut picked = picked.filter_map(|(end, shapes)| Some((end, gizmo::pick(shapes, place)?)));
+        let mut picked =
+            picked.filter_map(|(end, shapes)| Some((end, gizmo::pick(shapes, place)?)));
         picked.next()
     };
     let pressed = ui.input(|i| i.pointer.primary_pressed() && !i.modifiers.shift);
@@ -152,9 +153,20 @@ fn rings(
     let viewport = Viewport::new(lab.view_camera(), rect);
     let palette = Palette::in_ui(ui);
     for end in [0, 1] {
-        let hovered = hovered.filter(|(over, _)| *over == end).map(|(_, handle)| handle);
-        let held = lab.drag().filter(|(held, _)| *held == end).map(|(_, drag)| drag);
-        gizmo::draw(canvas, &lab.gizmo(end), &viewport, (hovered, held), &palette);
+        let hovered = hovered
+            .filter(|(over, _)| *over == end)
+            .map(|(_, handle)| handle);
+        let held = lab
+            .drag()
+            .filter(|(held, _)| *held == end)
+            .map(|(_, drag)| drag);
+        gizmo::draw(
+            canvas,
+            &lab.gizmo(end),
+            &viewport,
+            (hovered, held),
+            &palette,
+        );
     }
 }
 
@@ -204,7 +216,11 @@ fn caption(
             return;
         }
         let off = fixed(now.deviation_deg, 1);
-        if width > 84.0 { format!("{off}\u{b0} from slerp") } else { format!("{off}\u{b0}") }
+        if width > 84.0 {
+            format!("{off}\u{b0} from slerp")
+        } else {
+            format!("{off}\u{b0}")
+        }
     } else {
         let det = fixed(now.blend.determinant(), 2);
         let shear = now.blend.shear_deg();
@@ -217,7 +233,11 @@ fn caption(
     let small = FontId::proportional(11.0);
     let place = pos2(top.x, top.y + 15.0);
     let is_no_rotation = !method.makes_rotations() && (now.blend.determinant() - 1.0).abs() > 5e-3;
-    let ink = if is_no_rotation { palette.warning } else { palette.quiet };
+    let ink = if is_no_rotation {
+        palette.warning
+    } else {
+        palette.quiet
+    };
     canvas.text(place, egui::Align2::CENTER_TOP, text, small, ink);
 }
 
@@ -246,7 +266,11 @@ fn legend(canvas: &Canvas, rect: Rect, lab: &InterpolationLab, palette: &Palette
         let galley = canvas.layout_no_wrap(method.to_string(), font.clone(), palette.text);
         row -= galley.size().y + 1.0;
         let right = rect.right() - 12.0;
-        canvas.galley(pos2(right - galley.size().x, row), galley.clone(), palette.text);
+        canvas.galley(
+            pos2(right - galley.size().x, row),
+            galley.clone(),
+            palette.text,
+        );
         let dot = pos2(right - galley.size().x - 8.0, row + 0.5 * galley.size().y);
         canvas.circle_filled(dot, 4.0, color(hex_of(method)));
     }

@@ -142,7 +142,11 @@ pub fn edges(map: &DMat3, middle: Vec3, size: f32, color: Color, width: f32) -> 
 #[must_use]
 pub fn ball(middle: Vec3, radius: f32, color: Color, opacity: f32, segments: usize) -> Model {
     let mut mesh = Mesh::default();
-    mesh.add(&Shape::ball(Vec3::ZERO, radius, segments), 0, MaterialId::Base);
+    mesh.add(
+        &Shape::ball(Vec3::ZERO, radius, segments),
+        0,
+        MaterialId::Base,
+    );
     Model {
         mesh: Arc::new(mesh),
         joints: vec![Affine3::from_translation(middle)],
@@ -179,8 +183,16 @@ mod tests {
         let bent = model(&sheared, Vec3::ZERO, 2.0, look);
         let expected = sheared.as_mat3() * MESH.vertices[5].position;
         assert!(bent.mesh.vertices[5].position.abs_diff_eq(expected, 1e-6));
-        let normals = bent.mesh.vertices.iter().map(|vertex| vertex.normal.length());
-        assert!(normals.into_iter().all(|length| (length - 1.0).abs() < 1e-3));
+        let normals = bent
+            .mesh
+            .vertices
+            .iter()
+            .map(|vertex| vertex.normal.length());
+        assert!(
+            normals
+                .into_iter()
+                .all(|length| (length - 1.0).abs() < 1e-3)
+        );
         assert_eq!(edges(&turned, Vec3::ZERO, 1.0, look.color, 1.0).len(), 12);
     }
 }

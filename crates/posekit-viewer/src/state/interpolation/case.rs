@@ -124,7 +124,9 @@ impl Case {
         if !order.is_complete() || order == self.order {
             return;
         }
-        let rotations: Vec<DQuat> = (0..self.keys_deg.len()).map(|key| self.rotation(key)).collect();
+        let rotations: Vec<DQuat> = (0..self.keys_deg.len())
+            .map(|key| self.rotation(key))
+            .collect();
         self.order = order;
         let mut previous = [0.0; 3];
         for (angles, rotation) in self.keys_deg.iter_mut().zip(rotations) {
@@ -154,7 +156,11 @@ impl Case {
     pub fn remove_key(&mut self, key: usize) {
         if self.keys_deg.len() > 2 && key < self.keys_deg.len() {
             self.keys_deg.remove(key);
-            let gap = if key <= self.gap { self.gap.saturating_sub(1) } else { self.gap };
+            let gap = if key <= self.gap {
+                self.gap.saturating_sub(1)
+            } else {
+                self.gap
+            };
             self.set_gap(gap);
             self.preset = None;
         }
@@ -207,7 +213,11 @@ fn angles_deg(order: EulerOrder, rotation: DQuat, near_deg: [f64; 3]) -> [f64; 3
 /// What is a round number but for rounding is that number.
 fn settled(angle_deg: f64) -> f64 {
     let round = (angle_deg * 1e6).round() / 1e6;
-    if (angle_deg - round).abs() < 1e-9 { round + 0.0 } else { angle_deg }
+    if (angle_deg - round).abs() < 1e-9 {
+        round + 0.0
+    } else {
+        angle_deg
+    }
 }
 
 /// What a hand turned needs no more than four decimals.
@@ -239,7 +249,10 @@ mod tests {
             assert_eq!(ours.before.is_some(), theirs.before.is_some());
             assert_eq!(ours.after.is_some(), theirs.after.is_some());
             for angles in case.keys_deg() {
-                assert!(angles.iter().all(|angle| angle.abs() <= WIDEST_DEG), "{preset}");
+                assert!(
+                    angles.iter().all(|angle| angle.abs() <= WIDEST_DEG),
+                    "{preset}"
+                );
             }
         }
     }
@@ -253,7 +266,10 @@ mod tests {
                 case.set_order(word.parse().expect("an order"));
                 for key in 0..first.keys_deg().len() {
                     let (a, b) = (case.rotation(key), first.rotation(key));
-                    assert!(angle_between(a, b) < 1e-7 && a.dot(b) > 0.0, "{preset} {word} {key}");
+                    assert!(
+                        angle_between(a, b) < 1e-7 && a.dot(b) > 0.0,
+                        "{preset} {word} {key}"
+                    );
                 }
             }
         }

@@ -89,7 +89,9 @@ impl FillJob {
     #[must_use]
     pub fn run(&self) -> Option<Filled> {
         let plan = FillPlan::every(self.every, self.motion.frame_count()).ok()?;
-        let filled = fill(&self.motion, &plan, |joint| self.method.of(joint, &self.orders));
+        let filled = fill(&self.motion, &plan, |joint| {
+            self.method.of(joint, &self.orders)
+        });
         let error = FillError::between(&self.motion, &filled, &plan.filled());
         let colors = figure_of(hex_of_fill(self.method));
         Some(Filled {
@@ -403,7 +405,11 @@ impl ClipLab {
         let truth = self.subject.iter().filter(|_| self.sees_truth);
         let mut actors: Vec<Actor> = truth.map(|subject| subject.truth.clone()).collect();
         for method in offered() {
-            if let Some(filled) = self.results.get(&method).filter(|_| self.seen.contains(&method)) {
+            if let Some(filled) = self
+                .results
+                .get(&method)
+                .filter(|_| self.seen.contains(&method))
+            {
                 actors.push(filled.actor.clone());
             }
         }
@@ -438,7 +444,11 @@ impl ClipLab {
     /// The methods of the figures on the stage, in their order; the truth is none.
     #[must_use]
     pub fn on_stage(&self) -> Vec<Option<FillMethod>> {
-        let truth = self.subject.iter().filter(|_| self.sees_truth).map(|_| None);
+        let truth = self
+            .subject
+            .iter()
+            .filter(|_| self.sees_truth)
+            .map(|_| None);
         let is_there =
             |method: &FillMethod| self.seen.contains(method) && self.results.contains_key(method);
         truth
@@ -490,7 +500,9 @@ impl ClipLab {
     /// The height that distances are told in parts of.
     #[must_use]
     pub fn height(&self) -> f64 {
-        let height = self.clip().map_or(0.0, |clip| f64::from(clip.skeleton().height()));
+        let height = self
+            .clip()
+            .map_or(0.0, |clip| f64::from(clip.skeleton().height()));
         if height > 0.0 { height } else { 1.0 }
     }
 
@@ -504,7 +516,9 @@ impl ClipLab {
             Source::Bytes => quoted(&clip.name),
             Source::Sample => "sample:walk".to_owned(),
         };
-        let listed = offered().into_iter().filter(|method| self.chosen.contains(method));
+        let listed = offered()
+            .into_iter()
+            .filter(|method| self.chosen.contains(method));
         let words: Vec<String> = listed.map(|method| method.to_string()).collect();
         let mut line = format!("posekit inbetween {name} --keep {}", self.every);
         if !words.is_empty() {

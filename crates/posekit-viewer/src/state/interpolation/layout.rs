@@ -33,11 +33,19 @@ impl Layout {
     pub fn new(size: Vec2, methods: usize, picture: Picture) -> Self {
         let room = Rect::from_min_max(
             pos2(MARGIN, TOOLS),
-            pos2((size.x - MARGIN).max(MARGIN + 2.0), (size.y - 2.0).max(TOOLS + 2.0)),
+            pos2(
+                (size.x - MARGIN).max(MARGIN + 2.0),
+                (size.y - 2.0).max(TOOLS + 2.0),
+            ),
         );
         let width = ENDS.min(ENDS_SHARE * room.width());
         let height = room.height() / 2.0;
-        let end = |row: f32| Rect::from_min_size(pos2(room.left(), room.top() + row * height), vec2(width, height));
+        let end = |row: f32| {
+            Rect::from_min_size(
+                pos2(room.left(), room.top() + row * height),
+                vec2(width, height),
+            )
+        };
         let rest = Rect::from_min_max(pos2(room.left() + width + MARGIN, room.top()), room.max);
         Self {
             size,
@@ -72,7 +80,10 @@ impl Layout {
     /// Where the body of a cell is: above what is written under it.
     #[must_use]
     pub fn body_place(cell: Rect) -> Pos2 {
-        pos2(cell.center().x, cell.top() + 0.5 * (cell.height() - CAPTION))
+        pos2(
+            cell.center().x,
+            cell.top() + 0.5 * (cell.height() - CAPTION),
+        )
     }
 
     /// How far a body of a cell may reach from its middle, points.
@@ -100,7 +111,10 @@ fn grid(room: Rect, count: usize) -> Vec<Rect> {
     let (width, height) = (room.width() / columns as f32, room.height() / rows as f32);
     #[expect(clippy::cast_precision_loss, reason = "a small number")]
     let cell = |index: usize| {
-        let corner = vec2((index % columns) as f32 * width, (index / columns) as f32 * height);
+        let corner = vec2(
+            (index % columns) as f32 * width,
+            (index / columns) as f32 * height,
+        );
         Rect::from_min_size(room.min + corner, vec2(width, height))
     };
     (0..count).map(cell).collect()
@@ -115,7 +129,12 @@ mod tests {
 
     #[test]
     fn places_are_in_the_view_and_apart() {
-        for size in [vec2(800.0, 480.0), vec2(470.0, 380.0), vec2(300.0, 500.0), vec2(5.0, 5.0)] {
+        for size in [
+            vec2(800.0, 480.0),
+            vec2(470.0, 380.0),
+            vec2(300.0, 500.0),
+            vec2(5.0, 5.0),
+        ] {
             for count in 0..=13 {
                 let layout = Layout::new(size, count, Picture::SideBySide);
                 assert_eq!(layout.cells.len(), count);

@@ -186,7 +186,11 @@ impl InterpolationLab {
         self.cancel_drag();
         self.begin_step();
         self.case = Case::of_preset(preset);
-        self.span = if self.case.gap_count() > 1 { Span::AllKeys } else { Span::Pair };
+        self.span = if self.case.gap_count() > 1 {
+            Span::AllKeys
+        } else {
+            Span::Pair
+        };
         if preset == Preset::LongWay {
             self.shown.insert(Method::RawSlerp);
         }
@@ -252,7 +256,9 @@ impl InterpolationLab {
 
     /// The methods that are shown, in the order of [`Method::ALL`].
     pub fn shown(&self) -> impl Iterator<Item = Method> + '_ {
-        Method::ALL.into_iter().filter(|method| self.shown.contains(method))
+        Method::ALL
+            .into_iter()
+            .filter(|method| self.shown.contains(method))
     }
 
     /// Whether a method is shown.
@@ -349,17 +355,17 @@ impl InterpolationLab {
         self.version
     }
 
-    /// Works out the ways of the shown methods that are not known yet. Some milliseconds for all of them.
+    /// Works out the ways of all methods that are not known yet: some milliseconds.
     pub fn measure(&mut self) {
-        for method in self.shown.iter().copied().collect::<Vec<_>>() {
-            let (case, span) = (&self.case, self.span);
+        let (case, span) = (&self.case, self.span);
+        for method in Method::ALL {
             self.ways
                 .entry(method)
                 .or_insert_with(|| Way::new(method, case, span));
         }
     }
 
-    /// A shown method's way, once it was measured.
+    /// A method's way, once it was measured.
     #[must_use]
     pub fn way(&self, method: Method) -> Option<&Way> {
         self.ways.get(&method)
@@ -407,7 +413,8 @@ impl InterpolationLab {
     pub fn look_from(&mut self, view: View) {
         let (yaw_rad, pitch_rad) = view.yaw_pitch_rad(0.0);
         let around = [glam::Vec3::ZERO, glam::Vec3::Y];
-        self.camera.frame_points(&around, (yaw_rad, pitch_rad), 1.0, 1.0);
+        self.camera
+            .frame_points(&around, (yaw_rad, pitch_rad), 1.0, 1.0);
     }
 
     /// The scene now.
@@ -483,7 +490,9 @@ impl InterpolationLab {
             // The turn alone comes from the screen; what it turns keeps its digits.
             let start = held.before.rotation(key);
             let from = start.as_quat();
-            let turn: DQuat = (placement.orientation * from.conjugate()).as_dquat().normalize();
+            let turn: DQuat = (placement.orientation * from.conjugate())
+                .as_dquat()
+                .normalize();
             self.change(|case| case.set_rotation(key, turn * start));
         }
         self.held = Some(held);

@@ -81,7 +81,8 @@ impl Playback {
         if !self.is_playing || !passed_secs.is_finite() {
             return;
         }
-        let next = self.share + passed_secs.max(0.0) / self.secs.clamp(*SECS_RANGE.start(), *SECS_RANGE.end());
+        let next = self.share
+            + passed_secs.max(0.0) / self.secs.clamp(*SECS_RANGE.start(), *SECS_RANGE.end());
         if next < self.length {
             self.share = next;
         } else if self.at_end == AtEnd::Loop {
@@ -99,7 +100,10 @@ mod tests {
 
     #[test]
     fn it_loops_or_stops() {
-        let mut clock = Playback { secs: 2.0, ..Playback::default() };
+        let mut clock = Playback {
+            secs: 2.0,
+            ..Playback::default()
+        };
         clock.set_share(0.75);
         clock.toggle();
         clock.advance(1.0);

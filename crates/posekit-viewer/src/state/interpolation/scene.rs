@@ -103,7 +103,9 @@ impl Stage<'_> {
                 color: Color::from_hex(END_COLOR),
                 opacity: 1.0,
             };
-            self.scene.models.push(body::model(&turned, middle, size, look));
+            self.scene
+                .models
+                .push(body::model(&turned, middle, size, look));
         }
     }
 
@@ -116,7 +118,9 @@ impl Stage<'_> {
                 opacity: 1.0,
             };
             let map = now.blend.matrix;
-            self.scene.models.push(body::model(&map, middle, size, look));
+            self.scene
+                .models
+                .push(body::model(&map, middle, size, look));
             if !method.makes_rotations() {
                 // The box that it should be, around the one that it is.
                 let rigid = matrix_from_quat(now.rotation);
@@ -198,7 +202,11 @@ impl Stage<'_> {
         let faint = body::faint(self.theme.text, &self.theme, 0.55);
         for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
             let axis = axis.as_vec3();
-            self.line(&[middle + axis * radius, middle + axis * (1.04 * radius)], faint, 2.0);
+            self.line(
+                &[middle + axis * radius, middle + axis * (1.04 * radius)],
+                faint,
+                2.0,
+            );
         }
     }
 

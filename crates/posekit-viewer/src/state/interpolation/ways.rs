@@ -113,7 +113,11 @@ impl Way {
     #[must_use]
     pub fn new(method: Method, case: &Case, span: Span) -> Self {
         let gaps = span.gaps(case);
-        let count = if gaps.len() == 1 { STEPS } else { STEPS_OF_MANY };
+        let count = if gaps.len() == 1 {
+            STEPS
+        } else {
+            STEPS_OF_MANY
+        };
         let steps: Vec<PathStep> = gaps
             .enumerate()
             .flat_map(|(passed, gap)| {
@@ -138,7 +142,13 @@ impl Way {
             least_determinant: least(|step| step.blend.determinant()),
             most_shear_deg: steps.iter().map(|step| step.blend.shear_deg()).fold(
                 0.0,
-                |a: f64, b| if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) },
+                |a: f64, b| {
+                    if a.is_nan() || b.is_nan() {
+                        f64::NAN
+                    } else {
+                        a.max(b)
+                    }
+                },
             ),
             steps,
         }
@@ -186,11 +196,20 @@ mod tests {
         let zxy = way(Preset::Zxy, "euler:ZXY", Span::Pair);
         let slerp = way(Preset::Zxy, "slerp", Span::Pair);
         assert!(zxy.most_speed_deg > 1.9 * zxy.least_speed_deg);
-        assert!((slerp.most_speed_deg - 30.4).abs() < 0.1, "{}", slerp.most_speed_deg);
+        assert!(
+            (slerp.most_speed_deg - 30.4).abs() < 0.1,
+            "{}",
+            slerp.most_speed_deg
+        );
         assert!(way(Preset::Gimbal, "euler:XYZ", Span::Pair).most_deviation_deg > 20.0);
         let turned = way(Preset::LongWay, "rawslerp", Span::Pair);
         assert!((turned.most_speed_deg - 300.0).abs() < 1e-3);
-        assert!(way(Preset::Flip, "matrix", Span::Pair).least_determinant.abs() < 1e-12);
+        assert!(
+            way(Preset::Flip, "matrix", Span::Pair)
+                .least_determinant
+                .abs()
+                < 1e-12
+        );
         assert!(way(Preset::HalfTurn, "matrix", Span::Pair).most_speed_deg > 5_000.0);
         for method in Method::ALL {
             let near = Way::new(method, &Case::of_preset(Preset::Near), Span::Pair);
@@ -198,12 +217,20 @@ mod tests {
         }
         // Slerp's speed steps at keys; squad's does not.
         let jump = |way: &Way| {
-            let speeds = way.steps.windows(2).map(|two| (two[1].speed_deg - two[0].speed_deg).abs());
+            let speeds = way
+                .steps
+                .windows(2)
+                .map(|two| (two[1].speed_deg - two[0].speed_deg).abs());
             speeds.fold(0.0, f64::max)
         };
         let slerp = way(Preset::Keys, "slerp", Span::AllKeys);
         let squad = way(Preset::Keys, "squad", Span::AllKeys);
-        assert!(jump(&slerp) > 4.0 * jump(&squad), "{} {}", jump(&slerp), jump(&squad));
+        assert!(
+            jump(&slerp) > 4.0 * jump(&squad),
+            "{} {}",
+            jump(&slerp),
+            jump(&squad)
+        );
         let swing = way(Preset::Swing, "euler:ZXY", Span::AllKeys);
         assert!(swing.most_deviation_deg > 5.0);
         assert!(way(Preset::Swing, "squad", Span::AllKeys).most_deviation_deg < 1e-6);

@@ -4,8 +4,8 @@ use egui::{Button, ProgressBar, Rect, RichText, ScrollArea, Sense, Slider, Ui, p
 use posekit::inbetween::FillMethod;
 
 use super::super::super::row;
-use super::super::methods::{says, swatch};
 use super::super::color;
+use super::super::methods::{says, swatch};
 use crate::icons::{Icon, sized_icon};
 use crate::state::clip::index_to_f64;
 use crate::state::interpolation::clip::{EVERY_RANGE, offered};
@@ -79,7 +79,10 @@ fn progress(ui: &mut Ui, lab: &mut ClipLab) {
                     .desired_width((ui.available_width() - 70.0).max(40.0))
                     .desired_height(12.0);
                 ui.add(bar);
-                if ui.add(Button::new(RichText::new("Cancel").small())).clicked() {
+                if ui
+                    .add(Button::new(RichText::new("Cancel").small()))
+                    .clicked()
+                {
                     lab.cancel();
                 }
             });
@@ -127,7 +130,11 @@ fn method_row(ui: &mut Ui, lab: &mut ClipLab, method: FillMethod) {
         ui.painter().rect_filled(tick, 5.0, palette.hover);
     }
     swatch(ui, rect, color(hex_of_fill(method)), is_chosen);
-    let ink = if is_chosen { palette.text } else { palette.quiet };
+    let ink = if is_chosen {
+        palette.text
+    } else {
+        palette.quiet
+    };
     let name = Rect::from_min_max(rect.min + vec2(24.0, 0.0), tick.max);
     row::text_in(ui, name, RichText::new(&word), ink);
     let about = match method {

@@ -21,10 +21,19 @@ const CELL: f32 = 46.0;
 
 /// The columns of numbers: heading, and what it is.
 const COLUMNS: [(&str, &str); 4] = [
-    ("mean \u{b0}", "The mean angle between local rotations over the frames that were filled in, in degrees"),
+    (
+        "mean \u{b0}",
+        "The mean angle between local rotations over the frames that were filled in, in degrees",
+    ),
     ("most \u{b0}", "The largest one, in degrees"),
-    ("mean %", "The mean distance between global positions, in parts of the skeleton's height"),
-    ("most %", "The largest one, in parts of the skeleton's height"),
+    (
+        "mean %",
+        "The mean distance between global positions, in parts of the skeleton's height",
+    ),
+    (
+        "most %",
+        "The largest one, in parts of the skeleton's height",
+    ),
 ];
 
 /// Shows it.
@@ -63,8 +72,12 @@ fn table(ui: &mut Ui, lab: &ClipLab, go: &mut Go) {
         let written = ui
             .painter()
             .text(place, Align2::RIGHT_CENTER, name, font, palette.quiet);
-        ui.interact(written.expand(3.0), ui.scope_id().with(name), Sense::hover())
-            .on_hover_text(says);
+        ui.interact(
+            written.expand(3.0),
+            ui.scope_id().with(name),
+            Sense::hover(),
+        )
+        .on_hover_text(says);
     }
     ui.spacing_mut().item_spacing.y = 0.0;
     for filled in lab.results() {
@@ -76,15 +89,24 @@ fn table(ui: &mut Ui, lab: &ClipLab, go: &mut Go) {
         if response.hovered() {
             ui.painter().rect_filled(rect, 5.0, palette.hover);
         }
-        let ink = if lab.is_stale(filled) { palette.quiet } else { palette.text };
+        let ink = if lab.is_stale(filled) {
+            palette.quiet
+        } else {
+            palette.text
+        };
         let dot = pos2(rect.left() + 8.0, rect.center().y);
-        ui.painter().circle_filled(dot, 5.0, color(hex_of_fill(filled.method)));
-        let name = Rect::from_min_max(rect.min + vec2(18.0, 0.0), pos2(rect.left() + ends[0] - 34.0, rect.bottom()));
+        ui.painter()
+            .circle_filled(dot, 5.0, color(hex_of_fill(filled.method)));
+        let name = Rect::from_min_max(
+            rect.min + vec2(18.0, 0.0),
+            pos2(rect.left() + ends[0] - 34.0, rect.bottom()),
+        );
         row::text_in(ui, name, RichText::new(&word), ink);
         for (text, end) in numbers(lab, filled).into_iter().zip(ends) {
             let place = pos2(rect.left() + end, rect.center().y);
             let font = FontId::proportional(12.0);
-            ui.painter().text(place, Align2::RIGHT_CENTER, text, font, ink);
+            ui.painter()
+                .text(place, Align2::RIGHT_CENTER, text, font, ink);
         }
         let worst = filled.error.worst().copied();
         let response = response.on_hover_text(worst.map_or_else(String::new, |worst| {
@@ -142,10 +164,13 @@ fn heat(ui: &mut Ui, lab: &ClipLab, go: &mut Go) {
     let mut left = rect.left() + JOINT_NAME;
     for filled in &results {
         let dot = pos2(left + 0.5 * cell, rect.center().y);
-        ui.painter().circle_filled(dot, 4.0, color(hex_of_fill(filled.method)));
+        ui.painter()
+            .circle_filled(dot, 4.0, color(hex_of_fill(filled.method)));
         left += cell;
     }
-    let joints = results.first().map_or(0, |filled| filled.error.joints.len());
+    let joints = results
+        .first()
+        .map_or(0, |filled| filled.error.joints.len());
     ScrollArea::vertical()
         .auto_shrink([false, false])
         .show_rows(ui, JOINT_ROW, joints, |ui, rows| {
@@ -165,13 +190,22 @@ fn joint_row(
 ) {
     let palette = Palette::in_ui(ui);
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), JOINT_ROW), Sense::hover());
-    let Some(joint) = results.first().map(|filled| filled.error.joints[index].joint) else {
+    let Some(joint) = results
+        .first()
+        .map(|filled| filled.error.joints[index].joint)
+    else {
         return;
     };
-    let name = lab.clip().map_or("", |clip| clip.skeleton().unique_name(joint));
+    let name = lab
+        .clip()
+        .map_or("", |clip| clip.skeleton().unique_name(joint));
     let place = Rect::from_min_size(rect.min, vec2(JOINT_NAME - 4.0, JOINT_ROW));
     let is_marked = lab.marked() == Some(joint);
-    let ink = if is_marked { palette.accent } else { palette.text };
+    let ink = if is_marked {
+        palette.accent
+    } else {
+        palette.text
+    };
     row::text_in(ui, place, RichText::new(name).size(11.5), ink);
     for (column, filled) in results.iter().enumerate() {
         let Some(error) = filled.error.joints.get(index) else {
@@ -180,7 +214,11 @@ fn joint_row(
         #[expect(clippy::cast_precision_loss, reason = "a small number")]
         let corner = rect.min + vec2(JOINT_NAME + cell * column as f32, 0.0);
         let place = Rect::from_min_size(corner, vec2(cell, JOINT_ROW)).shrink(0.5);
-        let share = if most > 0.0 { error.mean_deg / most } else { 0.0 };
+        let share = if most > 0.0 {
+            error.mean_deg / most
+        } else {
+            0.0
+        };
         let fill = warmth(share, &palette);
         ui.painter().rect_filled(place, 2.0, fill);
         if cell >= 26.0 {
@@ -225,6 +263,11 @@ fn warmth(share: f64, palette: &Palette) -> Color32 {
 
 /// Black or white, whichever is read on a colour.
 fn ink_on(fill: Color32) -> Color32 {
-    let bright = 0.3 * f32::from(fill.r()) + 0.59 * f32::from(fill.g()) + 0.11 * f32::from(fill.b());
-    if bright > 130.0 { Color32::from_gray(25) } else { Color32::from_gray(240) }
+    let bright =
+        0.3 * f32::from(fill.r()) + 0.59 * f32::from(fill.g()) + 0.11 * f32::from(fill.b());
+    if bright > 130.0 {
+        Color32::from_gray(25)
+    } else {
+        Color32::from_gray(240)
+    }
 }

@@ -41,9 +41,9 @@ pub(in super::super) fn show(ui: &mut Ui, lab: &mut InterpolationLab, has_legend
         plot = plot.legend(Legend::default().background_alpha(0.7));
     }
     let now = index_to_f64(lab.transport.frame());
-    let (kept, filled) = lab
-        .plan()
-        .map_or_else(Default::default, |plan| (plan.kept().to_vec(), plan.filled()));
+    let (kept, filled) = lab.plan().map_or_else(Default::default, |plan| {
+        (plan.kept().to_vec(), plan.filled())
+    });
     let response = plot.show(ui, |plot| {
         for result in lab.results() {
             // Numbers of another spacing are of other frames.
@@ -73,7 +73,12 @@ fn points(kept: &[usize], filled: &[usize], by_frame_deg: &[f64]) -> Vec<[f64; 2
     let piece = points.len().div_ceil(MOST_POINTS).max(1);
     points
         .chunks(piece)
-        .filter_map(|piece| piece.iter().copied().reduce(|a, b| if b.1 > a.1 { b } else { a }))
+        .filter_map(|piece| {
+            piece
+                .iter()
+                .copied()
+                .reduce(|a, b| if b.1 > a.1 { b } else { a })
+        })
         .map(|(frame, deg)| [index_to_f64(frame), deg])
         .collect()
 }
