@@ -72,13 +72,14 @@ def filled_by(method, truth, channels, kept, filled):
         "matrix": methods.matrix,
         "rotvec": methods.rotation_vector,
     }[method]
-    rotations = []
+    made = []
     for gap, (first, last) in enumerate(zip(kept, kept[1:])):
         way = make(keys[gap], keys[gap + 1])
         for frame in range(first + 1, last):
-            made = way((frame - first) / (last - first))
-            rotations.append(methods.nearest_rotation(made).as_quat())
-    return Rotation.from_quat(np.array(rotations))
+            made.append(way((frame - first) / (last - first)))
+    # The orthogonal factor of each: the nearest rotation.
+    left, _, right = np.linalg.svd(np.array(made))
+    return Rotation.from_matrix(left @ right)
 
 
 def main():

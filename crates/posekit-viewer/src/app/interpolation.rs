@@ -110,13 +110,13 @@ impl Viewer {
         true
     }
 
-    fn save_interpolation_picture(&mut self, _ctx: &egui::Context) {
+    fn save_interpolation_picture(&mut self, ctx: &egui::Context) {
         let stem = "interpolation";
         let parcel = files::picture_parcel(&self.picture(), stem, 0).map(|parcel| files::Parcel {
             name: format!("{stem}.png"),
             ..parcel
         });
-        self.hand_over(_ctx, parcel);
+        self.hand_over(ctx, parcel);
     }
 }
 

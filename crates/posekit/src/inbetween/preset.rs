@@ -101,11 +101,12 @@ impl Preset {
             }
             Self::Gimbal => {
                 "At a pitch of 89 degrees X and Z of XYZ turn about nearly one axis, and the turn wanted is \
-                 about another: Euler angles swing far aside and hurry. Slerp turns 40 degrees and is there."
+                 about another: euler:XYZ swings 15 degrees aside and goes at nearly twice the speed. The \
+                 other orders have their locks elsewhere."
             }
             Self::GimbalFar => {
-                "The same by 120 degrees: the heads of XYZ and of the orders beside it look elsewhere on the \
-                 way. Compare the paths on the sphere."
+                "The same by 120 degrees: the head of euler:XYZ looks 44 degrees aside on the way. Compare the \
+                 paths of its tips on the sphere."
             }
             Self::Zxy => {
                 "The middle angle of ZXY comes near 90 on the way, and the outer two run a quarter turn each \

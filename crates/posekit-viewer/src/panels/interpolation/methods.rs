@@ -157,7 +157,11 @@ fn numbers(way: &Way) -> [Number; 4] {
         text,
         stands_out: false,
     };
-    let speed = |deg: f64| fixed(deg, if deg < 1000.0 { 1 } else { 0 });
+    let speed = |deg: f64| match deg {
+        ..1e3 => fixed(deg, 1),
+        ..1e4 => fixed(deg, 0),
+        _ => format!("{}k", fixed(deg / 1e3, 0)),
+    };
     [
         plain(match way.method {
             Method::Slerp => "\u{2013}".to_owned(),

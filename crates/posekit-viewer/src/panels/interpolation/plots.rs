@@ -287,6 +287,9 @@ fn angles(lab: &InterpolationLab) -> Vec<Curve> {
 
 /// A number as short as it can be said at an axis.
 pub(super) fn short(value: f64) -> String {
+    if value.abs() >= 1e4 {
+        return format!("{:.0}k", value / 1e3);
+    }
     let text = format!("{value:.2}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     match text {

@@ -205,7 +205,16 @@ fn angles_deg(order: EulerOrder, rotation: DQuat, near_deg: [f64; 3]) -> [f64; 3
     let near = order.from_quat_near(rotation, near_deg.map(f64::to_radians));
     let mut angles = near.angles_rad.map(|angle| settled(angle.to_degrees()));
     if order.to_quat(angles.map(f64::to_radians)).dot(rotation) < 0.0 {
-        angles[0] -= 360.0_f64.copysign(angles[0]);
+        // A whole turn on any of the three changes the sign: the one that leaves the smallest angles.
+        let turned = (0..3).map(|axis| {
+            let mut turned = angles;
+            turned[axis] -= 360.0_f64.copysign(turned[axis]);
+            turned
+        });
+        let size = |angles: &[f64; 3]| angles.iter().map(|angle| angle * angle).sum::<f64>();
+        angles = turned
+            .min_by(|a, b| size(a).total_cmp(&size(b)))
+            .unwrap_or(angles);
     }
     angles.map(within)
 }

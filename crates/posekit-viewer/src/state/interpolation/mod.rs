@@ -355,17 +355,17 @@ impl InterpolationLab {
         self.version
     }
 
-    /// Works out the ways of the shown methods that are not known yet. Some milliseconds for all of them.
+    /// Works out the ways of all methods that are not known yet: some milliseconds.
     pub fn measure(&mut self) {
-        for method in self.shown.iter().copied().collect::<Vec<_>>() {
-            let (case, span) = (&self.case, self.span);
+        let (case, span) = (&self.case, self.span);
+        for method in Method::ALL {
             self.ways
                 .entry(method)
                 .or_insert_with(|| Way::new(method, case, span));
         }
     }
 
-    /// A shown method's way, once it was measured.
+    /// A method's way, once it was measured.
     #[must_use]
     pub fn way(&self, method: Method) -> Option<&Way> {
         self.ways.get(&method)
