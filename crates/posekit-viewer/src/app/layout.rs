@@ -72,7 +72,9 @@ impl Viewer {
         Panel::bottom("transport")
             .frame(panel.inner_margin(Margin::symmetric(8, 2)))
             .resizable(false)
-            .show(ui, |ui| transport::show(ui, &mut self.session, asked));
+            .show(ui, |ui| {
+                self.places.time_line = transport::show(ui, &mut self.session, asked);
+            });
         if self.layout.curves {
             Panel::bottom("curves")
                 .frame(panel.inner_margin(Margin::symmetric(8, 6)))
@@ -108,6 +110,7 @@ impl Viewer {
         }
         CentralPanel::no_frame().show(ui, |ui| {
             let rect = ui.available_rect_before_wrap();
+            self.places.view = rect;
             view::show(ui, &mut self.session, &mut self.painter, asked);
             self.show_over_view(ui, rect, asked);
         });
@@ -158,13 +161,15 @@ impl Viewer {
         }
     }
 
-    /// Shows the windows over everything.
-    pub(super) fn show_windows(&mut self, ctx: &egui::Context) {
+    /// Shows the windows over everything. True when one of them has changed by that.
+    pub(super) fn show_windows(&mut self, ctx: &egui::Context) -> bool {
+        let help_was_open = self.help_open;
         if self.help_open {
             self.help_open = help::show(ctx);
         }
         let (first, last) = self.session.transport.range();
-        match export::show(ctx, &mut self.export, last - first + 1) {
+        let answer = export::show(ctx, &mut self.export, last - first + 1);
+        match answer {
             export::Answer::None => {}
             export::Answer::Start => self.ask_where_to_export(),
             export::Answer::Cancel => {
@@ -178,7 +183,9 @@ impl Viewer {
             && running.is_finished()
         {
             self.export = export::ExportWindow::Closed;
+            return true;
         }
+        answer != export::Answer::None || self.help_open != help_was_open
     }
 }
 

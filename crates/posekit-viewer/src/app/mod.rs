@@ -4,6 +4,7 @@ mod act;
 mod events;
 mod lab;
 mod layout;
+mod status;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
@@ -26,11 +27,15 @@ use crate::picture::{Texture, to_color_image};
 use crate::state::arm::ArmLab;
 use crate::state::clip::Clip;
 use crate::state::library::Library;
+use crate::state::mode::Mode;
 use crate::state::notices::Notices;
 use crate::state::session::{ClipId, Session};
 use crate::state::settings::{Settings, WindowLayout};
 use crate::theme;
 use crate::work::export::ExportOptions;
+use status::Places;
+
+pub use status::Status;
 
 /// Under this name the settings are kept.
 const SETTINGS_KEY: &str = "posekit";
@@ -79,6 +84,13 @@ pub struct Viewer {
     next_group: u32,
     /// The window's clock when the clip's clock was moved last.
     last_tick_secs: Option<f64>,
+    places: Places,
+    /// How often the window was drawn.
+    picture_count: u64,
+    /// Whether the window, when it was drawn last, showed what is now.
+    is_current: bool,
+    /// How many files were saved.
+    saved_count: u64,
     #[cfg(not(target_arch = "wasm32"))]
     watch: crate::work::watch::Watch,
 }
@@ -119,6 +131,10 @@ impl Viewer {
             groups_opened: BTreeSet::new(),
             next_group: 0,
             last_tick_secs: None,
+            places: Places::default(),
+            picture_count: 0,
+            is_current: false,
+            saved_count: 0,
             #[cfg(not(target_arch = "wasm32"))]
             watch,
         };
@@ -214,10 +230,10 @@ impl Viewer {
         !self.loader.jobs().is_empty() || !self.checking.is_empty() || self.loader.is_looking()
     }
 
-    /// Whether the view's picture shows what it should, nothing being drawn.
+    /// Whether the window shows what is now, nothing being drawn and nothing asked for since.
     #[must_use]
     pub fn is_drawn(&self) -> bool {
-        !self.painter.is_busy()
+        self.is_current && !self.painter.is_busy()
     }
 
     /// The messages that are shown.
@@ -257,7 +273,9 @@ impl Viewer {
         };
         self.take_keys(ui, &mut asked);
         self.show_panels(ui, &mut asked);
-        self.show_windows(&ctx);
+        let answered = self.show_windows(&ctx);
+        self.picture_count += 1;
+        self.is_current = !answered && asked.is_empty() && self.is_view_current();
         for request in std::mem::take(&mut asked.requests) {
             self.serve(&ctx, request);
         }
@@ -268,6 +286,12 @@ impl Viewer {
         }
         self.check_edited();
         self.plan_repaint(&ctx);
+    }
+
+    /// Whether the view's picture is of the stage as it is now. The bench is never changed after it
+    /// was drawn.
+    fn is_view_current(&self) -> bool {
+        self.session.mode() == Mode::Lab || self.painter.shows_now(&self.session)
     }
 
     /// Checks the clips again that were edited.

@@ -13,4 +13,5 @@ mod pictures;
 mod reading;
 mod real_files;
 mod saving;
+mod status;
 mod window;
