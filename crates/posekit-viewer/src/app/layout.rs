@@ -25,10 +25,9 @@ impl Viewer {
         }
         if busy {
             // Windows over the view have the keys; the list closes with the key that opened it.
-            let pressed = ui.input_mut(command::pressed);
-            asked
-                .commands
-                .extend(pressed.into_iter().filter(|c| *c == Command::ToggleHelp));
+            let closes = |command| command == Command::ToggleHelp;
+            let pressed = ui.input_mut(|i| command::pressed_of(i, closes));
+            asked.commands.extend(pressed);
             return;
         }
         if self.take_keys_in_lab(ui) {

@@ -40,6 +40,18 @@ fn it_says_what_keys_have_done() {
 }
 
 #[test]
+fn windows_over_the_view_have_the_keys() {
+    let mut window = laptop(vec![input("arm.bvh", 20)]);
+    press(&mut window, Modifiers::COMMAND, Key::E);
+    // Enter and Space have other meanings under the window.
+    window.get_by_label("Cancel").focus();
+    window.run_steps(2);
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    assert_eq!(says(&window, "export"), "closed");
+    assert_eq!(says(&window, "playing"), "true");
+}
+
+#[test]
 fn it_says_that_a_key_is_shown_only_when_it_is() {
     let mut window = laptop(vec![input("arm.bvh", 20)]);
     press(&mut window, Modifiers::NONE, Key::Space);
