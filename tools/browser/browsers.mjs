@@ -6,6 +6,9 @@ import { join } from "node:path";
 
 import puppeteer from "puppeteer-core";
 
+/** How long anything at all may take: a busy machine that draws in software may take a minute for what takes a second. */
+export const PATIENCE_MS = 240_000;
+
 const CHROMIUM = found(["chromium", "chromium-browser", "google-chrome"]);
 const FIREFOX = found(["firefox-esr", "firefox"]);
 
@@ -23,7 +26,7 @@ export const BROWSERS = [
   chromium("Chromium, WebGPU", SWIFTSHADER_WEBGPU),
   firefox("Firefox, WebGL2", { "dom.webgpu.enabled": false }),
   firefox("Firefox, WebGPU", { "dom.webgpu.enabled": true, "gfx.webgpu.ignore-blocklist": true }),
-].filter((browser) => browser !== null && isWanted(browser.name));
+].filter((browser) => browser && isWanted(browser.name));
 
 /** Chromium without anything that draws. */
 export const WITHOUT_GRAPHICS = chromium("Chromium, no graphics", NOTHING);
@@ -35,7 +38,8 @@ function isWanted(name) {
 
 function chromium(name, flags) {
   // A container has no sandbox to offer to root.
-  const args = ["--no-sandbox", "--disable-dev-shm-usage", ...flags];
+  // The watchdog takes drawing in software on a busy machine for a graphics driver that hangs.
+  const args = ["--no-sandbox", "--disable-dev-shm-usage", "--disable-gpu-watchdog", ...flags];
   return CHROMIUM && { name, kind: "chromium", options: { executablePath: CHROMIUM, args } };
 }
 
@@ -50,5 +54,6 @@ function found(names) {
 
 /** Starts one. */
 export function launch(browser, options = {}) {
-  return puppeteer.launch({ headless: true, ...browser.options, ...options });
+  const patience = { timeout: PATIENCE_MS, protocolTimeout: PATIENCE_MS };
+  return puppeteer.launch({ headless: true, ...patience, ...browser.options, ...options });
 }

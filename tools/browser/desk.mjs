@@ -1,10 +1,14 @@
 // One page in one browser, used as people use it: looked at, clicked, dropped on.
+//
+// The page says what it shows (`docs/viewer.md`, "What the page says of itself"). Whatever is done is
+// waited for there, and pixels are compared after that, again and again until they are right or the
+// patience ends: nothing here depends on how fast the machine is.
 
 import { basename } from "node:path";
 import { readFileSync } from "node:fs";
 
-import { launch } from "./browsers.mjs";
-import { difference, part, picture, standingOut } from "./picture.mjs";
+import { PATIENCE_MS, launch } from "./browsers.mjs";
+import { difference, picture, standingOut } from "./picture.mjs";
 
 /** A laptop's window. */
 export const WINDOW = { width: 1366, height: 768, deviceScaleFactor: 1 };
@@ -12,26 +16,26 @@ export const WINDOW = { width: 1366, height: 768, deviceScaleFactor: 1 };
 /** Where, in that window, the figure is and nothing else. */
 export const FIGURE = { x: 420, y: 130, width: 480, height: 500 };
 
-/** The time line's left and right end and its height in the window. */
-export const TIME_LINE = { left: 10, right: 1356, y: 714 };
+/** Between two looks at something that is waited for. */
+const BETWEEN_LOOKS_MS = 50;
 
-/** Software draws a few frames a second; a busy machine one in some seconds. */
-const PATIENCE_MS = 90_000;
-
-const sleep = (ms) => new Promise((done) => setTimeout(done, ms));
+/** THROTTLE=6 makes Chromium's pages six times slower, to try what a slow machine does. */
+const THROTTLE = Number(process.env.THROTTLE ?? 1);
 
 export class Desk {
   /** Opens an address in a browser of its own. */
   static async open(browser, address, { window = WINDOW, dark = false } = {}) {
     const running = await launch(browser, { defaultViewport: window });
     const page = await running.newPage();
+    page.setDefaultTimeout(PATIENCE_MS);
     const desk = new Desk(browser, running, page);
     page.on("console", (line) => desk.listen(line));
     page.on("pageerror", (error) => desk.complaints.push(String(error?.stack ?? error)));
     await page.setViewport(window);
     if (dark) await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: "dark" }]);
+    if (THROTTLE > 1 && browser.kind === "chromium") await page.emulateCPUThrottling(THROTTLE);
     desk.opened = performance.now();
-    await page.goto(address, { waitUntil: "load", timeout: PATIENCE_MS });
+    await desk.goto(address);
     return desk;
   }
 
@@ -53,20 +57,71 @@ export class Desk {
     return this.running.close();
   }
 
+  /** Goes to an address. */
+  async goto(address) {
+    await this.page.goto(address, { waitUntil: "load" });
+  }
+
+  /** Waits until `test` holds, and gives what it gave; `what` is what was waited for. */
+  async until(what, test) {
+    const end = performance.now() + PATIENCE_MS;
+    let found = await test();
+    while (!found) {
+      if (performance.now() > end) await this.giveUp(what);
+      await new Promise((done) => setTimeout(done, BETWEEN_LOOKS_MS));
+      found = await test();
+    }
+    return found;
+  }
+
+  async giveUp(what) {
+    await this.show("waited-in-vain");
+    const says = JSON.stringify(await this.state());
+    throw new Error(`${this.browser.name}: waited in vain for ${what}; the page says ${says}; ${this.complaints.join("; ")}`);
+  }
+
+  /** What the page says it shows; nothing before it has started. */
+  state() {
+    return this.page.$eval("#view", (canvas) => ({ ...canvas.dataset }));
+  }
+
+  /** Waits until the page says all of this and shows it, and gives what it says. */
+  becomes(wanted) {
+    return this.until(JSON.stringify(wanted), async () => {
+      const state = await this.state();
+      const holds = Object.entries(wanted).every(([name, value]) => state[name] === String(value));
+      return holds && state.drawn === "true" && state;
+    });
+  }
+
+  /** Does something after which the window is drawn once more, and waits for that. */
+  async drawnAfter(act) {
+    const before = Number((await this.state()).pictures);
+    await act();
+    await this.until("another picture", async () => Number((await this.state()).pictures) > before);
+  }
+
+  /** A picture of what the page says it shows. */
+  async settled(get = () => this.figure()) {
+    await this.becomes({ playing: false, working: false });
+    await this.onScreen();
+    return get();
+  }
+
+  /** Waits until what the page has drawn is on the screen. */
+  async onScreen() {
+    // The first of the two draws, the second begins when that is done.
+    await this.page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  }
+
   /** The middle of the view. */
   figure() {
     return picture(this.page, FIGURE);
   }
 
-  /** Waits until `test` holds; `what` is what was waited for. */
-  async until(what, test) {
-    const end = performance.now() + PATIENCE_MS;
-    while (performance.now() < end) {
-      const found = await test();
-      if (found) return found;
-      await sleep(60);
-    }
-    throw new Error(`${this.browser.name}: waited in vain for ${what}; ${this.complaints.join("; ")}`);
+  /** The whole window. */
+  whole() {
+    return picture(this.page);
   }
 
   /** Waits until a figure is seen, and gives its picture. */
@@ -79,26 +134,20 @@ export class Desk {
 
   /** Waits until the figure has moved; milliseconds since the address was opened. */
   async figureMoves() {
-    let before = await this.figureSeen();
-    return this.until("the figure to move", async () => {
-      const now = await this.figure();
-      const moved = difference(before, now) > 0.003;
-      before = now;
-      return moved && performance.now() - this.opened;
-    });
+    await this.becomes({ playing: true });
+    const before = await this.figureSeen();
+    await this.differs(before, 0.003);
+    return performance.now() - this.opened;
   }
 
-  /** Waits until the picture stands still, and gives it. */
-  async still(get = () => this.figure()) {
-    let before = await get();
-    let same = 0;
-    return this.until("the picture to stand still", async () => {
-      await sleep(250);
-      const now = await get();
-      same = difference(before, now) === 0 ? same + 1 : 0;
-      before = now;
-      return same >= 2 && now;
-    });
+  /** Waits until the view differs by more than that from a picture. */
+  differs(from, share) {
+    return this.until(`a view that differs by more than ${share}`, async () => difference(from, await this.figure()) > share);
+  }
+
+  /** Waits until the view differs by less than that from a picture. */
+  equals(one, share) {
+    return this.until(`a view that differs by less than ${share}`, async () => difference(one, await this.figure()) < share);
   }
 
   /** Presses keys one after the other: "Space", "Control+s". */
@@ -110,28 +159,55 @@ export class Desk {
       // One of the two protocols knows the bar by its character only.
       await this.page.keyboard.press(last === "Space" ? " " : last);
       for (const name of held.reverse()) await this.page.keyboard.up(name);
-      await sleep(30);
     }
   }
 
-  /** Pauses at the first frame, and gives the picture of it. */
+  /** Stops at the first frame, once everything is there, and gives the picture of it. */
   async pauseAtStart() {
-    await this.press("Space", "Home");
-    return this.still();
+    await this.becomes({ playing: true, working: false });
+    await this.press("Space");
+    await this.becomes({ playing: false });
+    await this.press("Home");
+    await this.becomes({ frame: 0 });
+    return this.settled();
   }
 
-  /** Presses the mouse on the time line at one share of it and lets go at another. */
+  /** Presses the mouse on the time line at one frame and lets go at another; the picture of that one. */
   async scrub(from, to) {
-    const x = (share) => TIME_LINE.left + share * (TIME_LINE.right - TIME_LINE.left);
+    const state = await this.state();
+    const [left, top, right, bottom] = state.timeLinePlace.split(" ").map(Number);
+    const x = (frame) => left + (frame / Number(state.lastFrame)) * (right - left);
+    const y = (top + bottom) / 2;
     const { mouse } = this.page;
-    await mouse.move(x(from), TIME_LINE.y);
+    await mouse.move(x(from), y);
     await mouse.down();
-    for (let step = 1; step <= 4; step += 1) {
-      await mouse.move(x(from + ((to - from) * step) / 4), TIME_LINE.y);
-      await sleep(60);
-    }
+    await this.becomes({ playing: false, frame: from });
+    for (let step = 1; step <= 4; step += 1) await mouse.move(x(from + ((to - from) * step) / 4), y);
+    await this.becomes({ frame: to });
     await mouse.up();
-    return this.still();
+    return this.settled();
+  }
+
+  /** Where messages come up: a strip along the top of the view. */
+  async messagePlace() {
+    const [left, top, right] = (await this.state()).viewPlace.split(" ").map(Number);
+    return { x: left + 20, y: top, width: right - left - 40, height: 80 };
+  }
+
+  /**
+   * Waits until a failure is told in these words, and until `test` holds of the picture of the place where it
+   * is. Messages go after a while: where looking takes longer than that, `again` makes it come once more.
+   */
+  async failureTold(words, again, test) {
+    await this.until(`a failure with ${words}`, async () => {
+      const { notice, noticeKind } = await this.state();
+      return noticeKind === "failure" && words.test(notice);
+    });
+    const place = await this.messagePlace();
+    await this.until("the message to be seen", async () => {
+      if (Number((await this.state()).notices) === 0) await again();
+      return test(await picture(this.page, place));
+    });
   }
 
   /** Drops files on the view. */
@@ -148,7 +224,6 @@ export class Desk {
     const place = { x: FIGURE.x + FIGURE.width / 2, y: FIGURE.y + FIGURE.height / 2 };
     for (const type of ["dragEnter", "dragOver", "drop"]) {
       await session.send("Input.dispatchDragEvent", { type, ...place, data });
-      await sleep(60);
     }
     await session.detach();
   }
@@ -157,11 +232,7 @@ export class Desk {
   async show(name) {
     if (!process.env.SEEN) return;
     const file = `${process.env.SEEN}/${this.browser.name.replace(/[^a-z0-9]+/gi, "-")}-${name}.png`;
-    await this.page.screenshot({ path: file });
-  }
-
-  async whole() {
-    return picture(this.page);
+    await this.page.screenshot({ path: file, captureBeyondViewport: false });
   }
 }
 
@@ -178,5 +249,3 @@ function synthesizeDrop(files) {
     canvas.dispatchEvent(new DragEvent(type, { ...place, dataTransfer: transfer }));
   }
 }
-
-export { difference, part, sleep };

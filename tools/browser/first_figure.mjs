@@ -6,12 +6,11 @@
 // The canvas is looked at after every frame that is drawn, so that a blank one does not count. The
 // browser is running already; the first time it has never seen the page, later it has.
 
-import { BROWSERS, launch } from "./browsers.mjs";
+import { BROWSERS, PATIENCE_MS, launch } from "./browsers.mjs";
 import { FIGURE, WINDOW } from "./desk.mjs";
 import { serve } from "./site.mjs";
 
 const TIMES = Number(process.env.TIMES ?? 5);
-const PATIENCE_MS = 60_000;
 
 const site = await serve();
 try {

@@ -1,5 +1,5 @@
 // The viewer as a web page, in every browser that is here: opened, dropped on, scrubbed, played, saved.
-// What is asked is asked of pixels.
+// What was done is waited for in what the page says of itself; what is asked then is asked of pixels.
 
 import assert from "node:assert/strict";
 import { readdirSync, readFileSync, writeFileSync } from "node:fs";
@@ -12,8 +12,8 @@ import { fileURLToPath } from "node:url";
 import { PNG } from "pngjs";
 
 import { BROWSERS, WITHOUT_GRAPHICS } from "./browsers.mjs";
-import { Desk, difference, part, sleep } from "./desk.mjs";
-import { meanDifference, picture, shrunk, standingOut } from "./picture.mjs";
+import { Desk } from "./desk.mjs";
+import { difference, meanDifference, part, shrunk, standingOut } from "./picture.mjs";
 import { serve } from "./site.mjs";
 
 /** Two pictures of different poses or figures differ by this much of the view at least. */
@@ -22,11 +22,14 @@ const OTHER = 0.004;
 /** The same pose drawn twice, with another pose between, differs by no more. */
 const SAME = 0.0005;
 
+/** Off the kept picture by more than this mean of 255, it is another picture. */
+const OFF = 3;
+
+/** Where the camera is when it looks from the front: degrees about the figure and above the horizon. */
+const FROM_THE_FRONT = "0 3";
+
 /** The last clip of the server's folder, when another one of it is open. */
 const LAST_CLIP = [130, 289];
-
-/** Where the messages over the view come up, in the laptop's window. */
-const MESSAGES = { x: 380, y: 44, width: 560, height: 70 };
 
 const GOLDEN = fileURLToPath(new URL("golden/wave_front.png", import.meta.url));
 
@@ -55,98 +58,115 @@ for (const browser of BROWSERS) {
     });
 
     test("space stops it and starts it", async () => {
+      await desk.becomes({ playing: true, working: false });
       await desk.press("Space");
-      const stopped = await desk.still();
-      await sleep(600);
-      assert.equal(difference(stopped, await desk.figure()), 0);
+      const { frame } = await desk.becomes({ playing: false });
+      const stopped = await desk.settled();
+      for (const x of [1, 2, 3]) {
+        // A pointer that moves has the window drawn again; a clock that ran would go on.
+        await desk.drawnAfter(() => desk.page.mouse.move(x, 1));
+      }
+      await desk.becomes({ playing: false, frame });
+      await desk.equals(stopped, SAME);
       await desk.press("Space");
-      await desk.until("the figure to move again", async () => difference(stopped, await desk.figure()) > OTHER);
+      await desk.becomes({ playing: true });
+      await desk.differs(stopped, OTHER);
     });
 
     test("the time line is scrubbed with the mouse", async () => {
       const start = await desk.pauseAtStart();
-      const later = await desk.scrub(0.1, 0.33);
+      const last = Number((await desk.state()).lastFrame);
+      const [tenth, third, beyond] = [0.1, 0.33, 0.6].map((share) => Math.round(share * last));
+      const later = await desk.scrub(tenth, third);
       await desk.show("scrubbed");
       assert.ok(difference(start, later) > OTHER, "another pose");
-      const again = await desk.scrub(0.6, 0.33);
-      assert.ok(difference(later, again) < SAME, "the same time, the same picture");
+      await desk.scrub(beyond, third);
+      await desk.equals(later, SAME);
       await desk.press("Home");
-      assert.ok(difference(start, await desk.still()) < SAME, "back at the start");
+      await desk.becomes({ frame: 0 });
+      await desk.equals(start, SAME);
     });
 
     test("a clip of the server's list and the same file dropped give the same picture", async () => {
       const walk = `${site.address}?url=${encodeURIComponent("clips/a walk.bvh")}`;
-      await desk.page.goto(walk);
-      const walking = await atStartFromTheFront(desk);
+      await desk.goto(walk);
+      const walking = await atStartFromTheFront(desk, "a walk.bvh");
       await desk.page.mouse.click(...LAST_CLIP);
-      const clicked = await atStartFromTheFront(desk);
+      const clicked = await atStartFromTheFront(desk, "wave.bvh");
       await desk.show("clicked");
-      await desk.page.goto(walk);
-      await atStartFromTheFront(desk);
+      await desk.goto(walk);
+      await atStartFromTheFront(desk, "a walk.bvh");
       await desk.drop(join(site.folder, "wave.bvh"));
-      const dropped = await atStartFromTheFront(desk);
+      await atStartFromTheFront(desk, "wave.bvh");
       await desk.show("dropped");
-      assert.ok(difference(clicked, dropped) < SAME, "clicked and dropped");
-      assert.ok(difference(walking, dropped) > OTHER, "another clip");
+      await desk.equals(clicked, SAME);
+      await desk.differs(walking, OTHER);
     });
 
     test("an address opens a clip, which looks as it always did", async () => {
-      await desk.page.goto(`${site.address}?url=clips/wave.bvh`);
-      let small = shrunk(await atStartFromTheFront(desk), 96);
-      if (process.env.GOLDEN === "write") writeFileSync(GOLDEN, PNG.sync.write(small));
+      await desk.goto(`${site.address}?url=clips/wave.bvh`);
+      const seen = await atStartFromTheFront(desk, "wave.bvh");
+      if (process.env.GOLDEN === "write") writeFileSync(GOLDEN, PNG.sync.write(shrunk(seen, 96)));
+      await desk.show("golden");
       const golden = PNG.sync.read(readFileSync(GOLDEN));
-      // Where drawing takes long, the picture can stand still before the last key was taken.
-      for (let tries = 0; tries < 20 && meanDifference(small, golden) >= 3; tries += 1) {
-        small = shrunk(await desk.still(), 96);
-      }
-      const off = meanDifference(small, golden);
-      if (off >= 3) await desk.show("off-the-kept-picture");
-      assert.ok(off < 3, `off the kept picture by ${off.toFixed(2)} of 255`);
+      await desk.until(`a picture off the kept one by less than ${OFF} of 255`, async () => {
+        return meanDifference(shrunk(await desk.figure(), 96), golden) < OFF;
+      });
     });
 
     test("what is no motion is told, and the clip stays", async () => {
-      const before = await desk.still(() => desk.whole());
+      await desk.goto(`${site.address}?url=clips/wave.bvh`);
+      await atStartFromTheFront(desk, "wave.bvh");
+      const before = await desk.whole();
       const jpeg = join(site.folder, "../photo.jpg");
       writeFileSync(jpeg, Buffer.from([0xff, 0xd8, 0xff, 0xe0, 0, 16, ...Buffer.from("JFIF"), 0, 1, 2, 3]));
-      await desk.drop(jpeg);
-      const after = await desk.until("a message", async () => {
-        const now = await desk.whole();
-        return difference(part(before, MESSAGES), part(now, MESSAGES)) > 0.05 && now;
-      });
+      assert.ok(!hasRed(part(before, await desk.messagePlace())), "no message yet");
+      const drop = () => desk.drop(jpeg);
+      await drop();
+      await desk.failureTold(/^photo\.jpg/, drop, hasRed);
       await desk.show("refused");
-      const figure = { x: 420, y: 200, width: 480, height: 400 };
-      assert.ok(difference(part(before, figure), part(after, figure)) < SAME);
+      await desk.becomes({ clip: "wave.bvh", frame: 0, shown: 1 });
+      const below = { x: 420, y: 200, width: 480, height: 400 };
+      await desk.until("the clip as it was", async () => {
+        return difference(part(before, below), part(await desk.whole(), below)) < SAME;
+      });
     });
 
     test("three files at once stand side by side", async () => {
       const one = await desk.figure();
       await desk.drop(...["a walk.bvh", "more/run.bvh", "wave.bvh"].map((name) => join(site.folder, name)));
-      await desk.until("more to see", async () => difference(one, await desk.figure()) > OTHER);
-      await sleep(1500);
+      await desk.becomes({ shown: 3, working: false });
+      await desk.differs(one, OTHER);
       await desk.show("three");
     });
 
     test("an address of another origin and one that leads nowhere are told", async () => {
-      for (const url of ["https://example.com/walk.bvh", "clips/gone.bvh"]) {
-        await desk.page.goto(`${site.address}?url=${encodeURIComponent(url)}`);
-        await desk.until("a message", async () => hasRed(await picture(desk.page, MESSAGES)));
-        await desk.show(url.startsWith("https") ? "foreign" : "gone");
+      const refused = [
+        ["https://example.com/walk.bvh", /own origin/, "foreign"],
+        ["clips/gone.bvh", /no such file/, "gone"],
+      ];
+      for (const [url, words, name] of refused) {
+        const go = () => desk.goto(`${site.address}?url=${encodeURIComponent(url)}`);
+        await go();
+        await desk.failureTold(words, go, hasRed);
+        await desk.show(name);
       }
       // The browser itself reports the file that is not there.
       desk.complaints = desk.complaints.filter((line) => !/404|gone\.bvh/.test(line));
     });
 
     test("the window may be resized while it plays, and every key pressed", async () => {
-      await desk.page.goto(site.address);
+      await desk.goto(site.address);
       await desk.figureMoves();
       for (const [width, height] of [[700, 400], [1920, 1080], [360, 640], [1366, 768]]) {
         await desk.page.setViewport({ width, height, deviceScaleFactor: 1 });
-        await sleep(250);
+        await fills(desk, width, height);
       }
       await pressEverything(desk);
       await desk.show("every-key");
-      await desk.page.goto(site.address);
-      await desk.figureMoves();
+      await desk.goto(site.address);
+      await desk.becomes({ working: false });
+      await desk.figureSeen();
     });
 
     test("nothing was complained about in the console", () => {
@@ -162,29 +182,42 @@ test("what is saved arrives in the downloads", { skip: !chromium }, async () => 
   const folder = mkdtempSync(join(tmpdir(), "posekit-downloads-"));
   try {
     const session = await desk.page.createCDPSession();
-    await session.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: folder });
-    await desk.figureMoves();
-    await desk.pauseAtStart();
-    const arrived = (end) => desk.until(end, async () => {
-      const name = readdirSync(folder).find((name) => name.endsWith(end));
-      return name && readFileSync(join(folder, name));
+    const behavior = { behavior: "allow", downloadPath: folder, eventsEnabled: true };
+    let complete = 0;
+    session.on("Browser.downloadProgress", ({ state }) => {
+      if (state === "completed") complete += 1;
     });
+    await session.send("Browser.setDownloadBehavior", behavior);
+    const arrived = async (count, end) => {
+      await desk.becomes({ saved: count });
+      await desk.until(`${count} files in the downloads`, () => complete === count);
+      const name = readdirSync(folder).find((name) => name.endsWith(end));
+      assert.ok(name, `no file ${end} among ${readdirSync(folder)}`);
+      return readFileSync(join(folder, name));
+    };
+    await desk.pauseAtStart();
     await desk.press("Control+s");
-    const motion = await arrived(".bvh");
+    const motion = await arrived(1, ".bvh");
     assert.deepEqual(motion, readFileSync(join(site.folder, "wave.bvh")), "the whole range is the file");
     await desk.press("Control+Shift+s");
-    const image = PNG.sync.read(await arrived(".png"));
+    const image = PNG.sync.read(await arrived(2, ".png"));
     assert.deepEqual([image.width, image.height], [1920, 1080]);
     assert.ok(standingOut(image) > 0.01);
     // A short range, so that it is done soon.
-    for (let step = 0; step < 4; step += 1) await desk.press("ArrowRight");
-    await desk.press("o", "Control+e");
-    await sleep(400);
+    for (const frame of [1, 2, 3, 4]) {
+      await desk.press("ArrowRight");
+      await desk.becomes({ frame });
+    }
+    await desk.press("o");
+    await desk.becomes({ range: "0 4" });
+    await desk.press("Control+e");
+    await desk.becomes({ export: "choosing" });
     await desk.show("export");
-    await clickExport(desk);
-    const film = await arrived(".gif");
+    await desk.press("Enter");
+    const film = await arrived(3, ".gif");
     assert.equal(film.subarray(0, 6).toString("latin1"), "GIF89a");
     assert.equal(film.at(-1), 0x3b, "a whole GIF");
+    await desk.becomes({ export: "closed" });
     assert.deepEqual(desk.complaints, []);
   } finally {
     await desk.close();
@@ -204,15 +237,25 @@ test("a browser without graphics is told so", { skip: !WITHOUT_GRAPHICS }, async
   }
 });
 
-/** The front view of the first frame, standing. */
-async function atStartFromTheFront(desk) {
-  await desk.figureMoves();
-  await desk.press("Space", "Home", "1");
-  return desk.still();
+/** The front view of the first frame of a clip that plays, standing. */
+async function atStartFromTheFront(desk, clip) {
+  await desk.becomes({ clip, playing: true, working: false });
+  await desk.pauseAtStart();
+  await desk.press("1");
+  await desk.becomes({ camera: FROM_THE_FRONT });
+  return desk.settled();
 }
 
-async function clickExport(desk) {
-  await desk.page.mouse.click(528, 495);
+/** Waits until the canvas has a size, the time line goes across it, and the view has room above that. */
+async function fills(desk, width, height) {
+  const size = () => desk.page.$eval("#view", (canvas) => [canvas.width, canvas.height].join());
+  await desk.until(`everything in its place in ${width} by ${height}`, async () => {
+    const state = await desk.state();
+    const [view, line] = [state.viewPlace, state.timeLinePlace].map((place) => place.split(" ").map(Number));
+    const isAcross = line[0] < 40 && line[2] > width - 40 && line[2] <= width && line[3] <= height;
+    const hasRoom = view[0] < view[2] && view[1] < view[3] && view[2] <= width && view[3] <= line[1];
+    return isAcross && hasRoom && (await size()) === `${width},${height}`;
+  });
 }
 
 /** A dot of the colour of failures. */
@@ -230,8 +273,10 @@ async function pressEverything(desk) {
   const keys = [
     ..."abcdefghijklmnopqrstuvwxyz0123456789[],.-=/?`;'", "Space", "Home", "End", "ArrowUp", "ArrowDown", "Escape", "Delete",
     "Tab", "Enter", "F2", "PageUp", "PageDown", "Escape"];
-  for (const key of keys) await desk.press(key);
-  for (const key of [..."abcdgjkmxz13579", "ArrowLeft", "ArrowRight", "Escape"]) {
-    for (const held of ["Shift", "Alt"]) await desk.press(`${held}+${key}`);
+  const held = [..."abcdgjkmxz13579", "ArrowLeft", "ArrowRight", "Escape"];
+  const all = [...keys, ...held.flatMap((key) => [`Shift+${key}`, `Alt+${key}`])];
+  // A few at a time, as quick fingers press them.
+  for (let first = 0; first < all.length; first += 4) {
+    await desk.drawnAfter(() => desk.press(...all.slice(first, first + 4)));
   }
 }

@@ -7,7 +7,8 @@ const SEEN = 24;
 
 /** A screenshot of the page or of a part of it, `{ x, y, width, height }`. */
 export async function picture(page, part) {
-  const bytes = await page.screenshot({ type: "png", ...(part && { clip: part }) });
+  // Beyond the window there is nothing, and looking there would resize the page.
+  const bytes = await page.screenshot({ type: "png", captureBeyondViewport: false, ...(part && { clip: part }) });
   return PNG.sync.read(Buffer.from(bytes));
 }
 

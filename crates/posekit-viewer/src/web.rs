@@ -10,7 +10,7 @@ use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::{JsFuture, spawn_local};
 use web_sys::{FileList, HtmlAnchorElement, HtmlCanvasElement, HtmlInputElement, Window};
 
-use crate::app::{Viewer, ViewerOptions};
+use crate::app::{Status, Viewer, ViewerOptions};
 use crate::load::{Chosen, Event, Input, Outbox, listing_of};
 use crate::state::display::Look;
 use crate::state::settings::{Settings, WindowLayout};
@@ -31,11 +31,54 @@ pub async fn start(canvas: HtmlCanvasElement, list: JsValue) -> Result<(), JsVal
         ..ViewerOptions::default()
     };
     let runner = eframe::WebRunner::new();
-    let create: eframe::AppCreator<'static> =
-        Box::new(move |context| Ok(Box::new(Viewer::of_window(context, options))));
+    let told = canvas.clone();
+    let create: eframe::AppCreator<'static> = Box::new(move |context| {
+        Ok(Box::new(Page {
+            viewer: Viewer::of_window(context, options),
+            canvas: told,
+            said: Status::default(),
+        }))
+    });
     runner
         .start(canvas, eframe::WebOptions::default(), create)
         .await
+}
+
+/// The viewer in its canvas, which says in its data attributes what is shown: `data-frame="12"`.
+struct Page {
+    viewer: Viewer,
+    canvas: HtmlCanvasElement,
+    said: Status,
+}
+
+impl Page {
+    /// Writes what has changed.
+    fn say(&mut self, ctx: &egui::Context) {
+        let status = self.viewer.status(ctx);
+        for (name, value) in status.iter() {
+            if self.said.get(name) == Some(value) {
+                continue;
+            }
+            // An element takes an attribute of any such name.
+            drop(self.canvas.set_attribute(&format!("data-{name}"), value));
+        }
+        self.said = status;
+    }
+}
+
+impl eframe::App for Page {
+    fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
+        self.viewer.ui(ui, frame);
+        self.say(ui.ctx());
+    }
+
+    fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
+        self.viewer.clear_color(visuals)
+    }
+
+    fn save(&mut self, storage: &mut dyn eframe::Storage) {
+        self.viewer.save(storage);
+    }
 }
 
 /// In a window narrower than this, in the page's pixels, the sides would leave no room for the figure.

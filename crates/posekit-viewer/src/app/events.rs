@@ -60,7 +60,10 @@ impl Viewer {
                 Event::Failed { message } => {
                     self.notices.add(NoticeKind::Failure, message, now);
                 }
-                Event::Written { message } => self.notices.add(NoticeKind::Done, message, now),
+                Event::Written { message } => {
+                    self.saved_count += 1;
+                    self.notices.add(NoticeKind::Done, message, now);
+                }
                 Event::Checked { clip, findings } => {
                     self.checking.remove(&clip);
                     self.session.set_findings(clip, findings);

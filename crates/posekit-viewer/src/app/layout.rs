@@ -27,10 +27,9 @@ impl Viewer {
         }
         if busy {
             // Windows over the view have the keys; the list closes with the key that opened it.
-            let pressed = ui.input_mut(|i| command::pressed(i, Place::Anywhere));
-            asked
-                .commands
-                .extend(pressed.into_iter().filter(|c| *c == Command::ToggleHelp));
+            let closes = |command| command == Command::ToggleHelp;
+            let pressed = ui.input_mut(|i| command::pressed_of(i, Place::Anywhere, closes));
+            asked.commands.extend(pressed);
             return;
         }
         if self.take_keys_in_lab(ui) || self.take_keys_in_interpolation(ui) {
@@ -81,7 +80,9 @@ impl Viewer {
         Panel::bottom("transport")
             .frame(panel.inner_margin(Margin::symmetric(8, 2)))
             .resizable(false)
-            .show(ui, |ui| transport::show(ui, &mut self.session, asked));
+            .show(ui, |ui| {
+                self.places.time_line = transport::show(ui, &mut self.session, asked);
+            });
         self.show_timeline(ui, asked);
         if self.layout.curves {
             Panel::bottom("curves")
@@ -118,6 +119,7 @@ impl Viewer {
         }
         CentralPanel::no_frame().show(ui, |ui| {
             let rect = ui.available_rect_before_wrap();
+            self.places.view = rect;
             view::show(ui, &mut self.session, &mut self.painter, asked);
             self.show_over_view(ui, rect, asked);
         });
@@ -173,16 +175,18 @@ impl Viewer {
         }
     }
 
-    /// Shows the windows over everything.
-    pub(super) fn show_windows(&mut self, ctx: &egui::Context) {
+    /// Shows the windows over everything. True when one of them has changed by that.
+    pub(super) fn show_windows(&mut self, ctx: &egui::Context) -> bool {
         self.show_questions(ctx);
+        let help_was_open = self.help_open;
         if self.help_open {
             self.help_open = help::show(ctx);
         }
         let (first, last) = self.session.transport.range();
         let cameras = self.camera_names();
         self.follow_export_size();
-        match export::show(ctx, &mut self.export, last - first + 1, &cameras) {
+        let answer = export::show(ctx, &mut self.export, last - first + 1, &cameras);
+        match answer {
             export::Answer::None => {}
             export::Answer::Start => self.ask_where_to_export(),
             export::Answer::Cancel => {
@@ -196,7 +200,9 @@ impl Viewer {
             && running.is_finished()
         {
             self.export = export::ExportWindow::Closed;
+            return true;
         }
+        answer != export::Answer::None || self.help_open != help_was_open
     }
 }
 

@@ -9,6 +9,7 @@ mod layout;
 mod poses;
 mod saving;
 mod shot;
+mod status;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
@@ -42,6 +43,9 @@ use crate::state::settings::{Settings, WindowLayout};
 use crate::theme;
 use crate::work::autosave::Autosave;
 use crate::work::export::ExportOptions;
+use status::Places;
+
+pub use status::Status;
 
 /// Under this name the settings are kept.
 const SETTINGS_KEY: &str = "posekit";
@@ -100,6 +104,13 @@ pub struct Viewer {
     next_group: u32,
     /// The window's clock when the clip's clock was moved last.
     last_tick_secs: Option<f64>,
+    places: Places,
+    /// How often the window was drawn.
+    picture_count: u64,
+    /// Whether the window, when it was drawn last, showed what is now.
+    is_current: bool,
+    /// How many files were saved.
+    saved_count: u64,
     #[cfg(not(target_arch = "wasm32"))]
     watch: crate::work::watch::Watch,
 }
@@ -154,6 +165,10 @@ impl Viewer {
             groups_opened: BTreeSet::new(),
             next_group: 0,
             last_tick_secs: None,
+            places: Places::default(),
+            picture_count: 0,
+            is_current: false,
+            saved_count: 0,
             #[cfg(not(target_arch = "wasm32"))]
             watch,
         };
@@ -288,10 +303,10 @@ impl Viewer {
             || self.timeline.is_waiting()
     }
 
-    /// Whether the view's picture shows what it should, nothing being drawn.
+    /// Whether the window shows what is now, nothing being drawn and nothing asked for since.
     #[must_use]
     pub fn is_drawn(&self) -> bool {
-        !self.painter.is_busy()
+        self.is_current && !self.painter.is_busy()
     }
 
     /// The messages that are shown.
@@ -332,7 +347,9 @@ impl Viewer {
         };
         self.take_keys(ui, &mut asked);
         self.show_panels(ui, &mut asked);
-        self.show_windows(&ctx);
+        let answered = self.show_windows(&ctx);
+        self.picture_count += 1;
+        self.is_current = !answered && asked.is_empty() && self.is_view_current();
         for request in std::mem::take(&mut asked.requests) {
             self.serve(&ctx, request);
         }
@@ -347,6 +364,12 @@ impl Viewer {
         }
         self.keep_scenes(&ctx);
         self.plan_repaint(&ctx);
+    }
+
+    /// Whether the view's picture is of the stage as it is now. The bench is never changed after it
+    /// was drawn.
+    fn is_view_current(&self) -> bool {
+        self.session.mode().is_lab() || self.painter.shows_now(&self.session)
     }
 
     /// Checks the clips again that were edited.

@@ -251,9 +251,19 @@ impl Place {
     }
 }
 
-/// The commands whose keys were pressed just now, in the order in which they were.
+/// The commands whose keys were pressed just now, in the order in which they were; the keys are taken.
 #[must_use]
 pub fn pressed(input: &mut egui::InputState, place: Place) -> Vec<Command> {
+    pressed_of(input, place, |_| true)
+}
+
+/// As [`pressed`], of those commands that are wanted; the keys of the others are left to whoever comes next.
+#[must_use]
+pub fn pressed_of(
+    input: &mut egui::InputState,
+    place: Place,
+    is_wanted: impl Fn(Command) -> bool,
+) -> Vec<Command> {
     let mut commands = Vec::new();
     input.events.retain(|event| {
         let egui::Event::Key {
@@ -267,6 +277,7 @@ pub fn pressed(input: &mut egui::InputState, place: Place) -> Vec<Command> {
         };
         // What was held when the key went down: by now it may be let go again.
         let asked = place.bindings().find(|b| b.is_meant(*key, *modifiers));
+        let asked = asked.filter(|binding| is_wanted(binding.command));
         commands.extend(asked.map(|binding| binding.command));
         asked.is_none()
     });

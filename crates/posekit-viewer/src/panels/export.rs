@@ -122,7 +122,10 @@ fn choose(ui: &mut Ui, options: &mut ExportOptions, frames: usize, cameras: &[St
     ui.add_space(4.0 * GAP);
     let mut answer = Answer::None;
     ui.horizontal(|ui| {
-        if ui.button("Export\u{2026}").clicked() {
+        // Enter is the first button, unless the keyboard has gone to another one.
+        let nobody_has_keys = ui.ctx().memory(|memory| memory.focused().is_none());
+        let entered = nobody_has_keys && ui.input(|i| i.key_pressed(egui::Key::Enter));
+        if ui.button("Export\u{2026}").clicked() || entered {
             answer = Answer::Start;
         }
         if ui.button("Cancel").clicked() {

@@ -65,6 +65,12 @@ impl Asked {
     pub fn command(&mut self, command: Command) {
         self.commands.push(command);
     }
+
+    /// Whether nothing was asked for.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.commands.is_empty() && self.requests.is_empty()
+    }
 }
 
 /// What a button's tooltip says: what it does, and its key.

@@ -27,14 +27,19 @@ const RANGE_ROOM: f32 = 150.0;
 /// How near the pointer must be to a handle of the range, points.
 const HANDLE_REACH: f32 = 6.0;
 
-/// Shows the transport: the time line above, the buttons below.
-pub fn show(ui: &mut Ui, session: &mut Session, asked: &mut Asked) {
+/// Shows the transport: the time line above, the buttons below. Returns where the frames are on the
+/// time line.
+pub fn show(ui: &mut Ui, session: &mut Session, asked: &mut Asked) -> Rect {
     ui.add_space(GAP);
     // While motion is authored the timeline's ruler is the time line.
-    if session.mode() != Mode::Animate || session.authored().is_none() {
-        time_line(ui, session);
+    let is_elsewhere = session.mode() == Mode::Animate && session.authored().is_some();
+    let track = if is_elsewhere {
+        Rect::ZERO
+    } else {
+        let track = time_line(ui, session);
         ui.add_space(GAP);
-    }
+        track
+    };
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = GAP;
         buttons(ui, session, asked);
@@ -58,6 +63,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, asked: &mut Asked) {
         });
     });
     ui.add_space(GAP);
+    track
 }
 
 fn buttons(ui: &mut Ui, session: &Session, asked: &mut Asked) {
@@ -187,8 +193,8 @@ fn range(ui: &mut Ui, transport: &mut Transport) {
     ui.label(egui::RichText::new("range").color(palette.quiet));
 }
 
-/// The time line, with its range, the findings, and the frame shown.
-fn time_line(ui: &mut Ui, session: &mut Session) {
+/// The time line, with its range, the findings, and the frame shown. Returns where the frames are.
+fn time_line(ui: &mut Ui, session: &mut Session) -> Rect {
     let size = vec2(ui.available_width(), LINE_HEIGHT);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
     let last = session.transport.last_frame();
@@ -201,6 +207,7 @@ fn time_line(ui: &mut Ui, session: &mut Session) {
     let line = Line { rect, last };
     scrub(ui, &response, &line, session);
     paint(ui, &response, &line, session);
+    line.track()
 }
 
 /// Where frames are on the screen.

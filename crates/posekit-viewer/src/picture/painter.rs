@@ -230,6 +230,17 @@ impl Painter {
             .is_some_and(|shot| shot.key.place == place)
     }
 
+    /// Whether the picture on the screen is of the session as it is now, in whatever size.
+    #[must_use]
+    pub fn shows_now(&self, session: &Session) -> bool {
+        self.shown.as_ref().is_some_and(|shot| {
+            shot.key.place == Place::Stage
+                && shot.key.stage_version == session.stage_version()
+                && shot.key.time_secs == session.stage_time_secs()
+                && shot.key.camera == session.view_camera()
+        })
+    }
+
     /// From where and when the picture on the screen was taken.
     #[must_use]
     pub fn shot(&self) -> Option<&Shot> {

@@ -37,6 +37,7 @@ pub struct Notice {
 #[derive(Clone, Debug, Default)]
 pub struct Notices {
     shown: Vec<Notice>,
+    last: Option<Notice>,
 }
 
 impl Notices {
@@ -52,11 +53,13 @@ impl Notices {
         };
         let text = text.into();
         self.shown.retain(|notice| notice.text != text);
-        self.shown.push(Notice {
+        let notice = Notice {
             kind,
             text,
             until_secs,
-        });
+        };
+        self.last = Some(notice.clone());
+        self.shown.push(notice);
         if self.shown.len() > MOST {
             self.shown.remove(0);
         }
@@ -88,6 +91,12 @@ impl Notices {
     pub fn shown(&self) -> &[Notice] {
         &self.shown
     }
+
+    /// The message that came last, even when it is no longer shown.
+    #[must_use]
+    pub fn last(&self) -> Option<&Notice> {
+        self.last.as_ref()
+    }
 }
 
 #[cfg(test)]
@@ -103,6 +112,8 @@ mod tests {
         assert_eq!(notices.tick(16.0), Some(14.0));
         assert_eq!(notices.shown().len(), 1);
         assert_eq!(notices.tick(40.0), None);
+        let last = notices.last().map(|notice| notice.text.as_str());
+        assert_eq!(last, Some("cannot"));
     }
 
     #[test]

@@ -17,5 +17,6 @@ mod poses;
 mod reading;
 mod real_files;
 mod saving;
+mod status;
 mod things;
 mod window;

@@ -514,7 +514,7 @@ impl ClipLab {
         let name = match &clip.source {
             Source::File(path) => quoted(&path.display().to_string()),
             Source::Bytes => quoted(&clip.name),
-            Source::Sample => "sample:walk".to_owned(),
+            Source::Sample(name) => name.clone(),
         };
         let listed = offered()
             .into_iter()
