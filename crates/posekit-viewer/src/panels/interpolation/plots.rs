@@ -225,7 +225,7 @@ fn plot(
             };
             plot.line(line);
         }
-        plot.vline(VLine::new("t", now).color(palette.accent).width(1.4));
+        plot.vline(VLine::new("", now).color(palette.accent).width(1.4));
         plot.pointer_coordinate()
     });
     let clicked = response.response.clicked() || response.response.dragged();
