@@ -26,7 +26,7 @@ use crate::picture::painter::Painter;
 use crate::picture::thumbnail::thumbnail;
 use crate::picture::{Texture, to_color_image};
 use crate::state::arm::ArmLab;
-use crate::state::clip::Clip;
+use crate::state::clip::{Clip, SAMPLE_WALK};
 use crate::state::interpolation::InterpolationLab;
 use crate::state::library::Library;
 use crate::state::notices::Notices;
@@ -177,7 +177,7 @@ impl Viewer {
 
     fn open_sample(&mut self, ctx: &egui::Context) {
         if let Ok(motion) = walk(&WalkConfig::default()) {
-            let clip = Clip::from_motion("Sample walk", motion);
+            let clip = Clip::from_motion(SAMPLE_WALK, motion);
             let picture = to_color_image(&thumbnail(&clip));
             let id = self.session.open(clip);
             self.opened(ctx, id, picture);

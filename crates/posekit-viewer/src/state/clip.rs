@@ -12,6 +12,9 @@ use posekit::skeleton::{JointId, Skeleton, SkeletonError};
 use posekit_formats::bvh::Bvh;
 use posekit_formats::report::{Import, ImportReport};
 
+/// What the walk is called that is there when nothing was opened: `sample:walk` of the command.
+pub const SAMPLE_WALK: &str = "Sample walk";
+
 /// Where a clip came from.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Source {
