@@ -129,12 +129,12 @@ impl Preset {
                  many keys hide a poor method."
             }
             Self::Keys => {
-                "Choose all keys: slerp goes straight from key to key and turns corners at each, so that \
-                 its speed steps; squad goes through them without."
+                "Over all keys slerp goes straight from key to key and turns a corner at each, so that its \
+                 speed steps. Squad goes through them without a corner."
             }
             Self::Swing => {
-                "Choose all keys: one even turn, keys 30 degrees apart. Slerp and squad do not show the \
-                 keys; euler:ZXY swings out between those next to its lock."
+                "Over all keys: one even turn, keys 30 degrees apart. Slerp and squad do not show the keys; \
+                 euler:ZXY jerks at those beside its lock."
             }
         }
     }

@@ -80,11 +80,10 @@ impl Comparison {
             fixed(100.0 * distance / height, 3)
         };
         let rows = self.methods.iter().map(|(method, error)| {
-            let worst = error
-                .joints
-                .iter()
-                .zip(&self.joints)
-                .reduce(|a, b| if b.0.max_deg > a.0.max_deg { b } else { a });
+            let worst = error.worst().and_then(|worst| {
+                let mut joints = error.joints.iter().zip(&self.joints);
+                joints.find(|(joint, _)| joint.joint == worst.joint)
+            });
             vec![
                 method.to_string(),
                 fixed(error.mean_deg, 3),

@@ -16,6 +16,10 @@ use crate::theme::{CURVES, GAP, Palette};
 /// Under this width there is one plot.
 const TWO_PLOTS: f32 = 620.0;
 
+/// How high the curves are first, as a share of the window, and at least, points.
+const CURVES_SHARE: f32 = 0.26;
+const LOWEST: f32 = 120.0;
+
 /// What a plot is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
@@ -95,6 +99,8 @@ pub(super) fn show_below(
     has_legend: bool,
 ) {
     let ground = Frame::NONE.fill(ui.visuals().panel_fill);
+    // In a low window the view needs its room for the rings of start and end.
+    let height = (CURVES_SHARE * ui.available_height()).clamp(LOWEST, 230.0);
     let id = egui::Id::unique(("interpolation plots", panel.is_closed));
     let below = Panel::bottom(id).frame(ground.inner_margin(Margin::symmetric(10, 4)));
     let below = if panel.is_closed {
@@ -102,8 +108,8 @@ pub(super) fn show_below(
     } else {
         below
             .resizable(true)
-            .default_size(212.0)
-            .size_range(120.0..=460.0)
+            .default_size(height)
+            .size_range(LOWEST..=460.0)
     };
     below.show(ui, |ui| match lab.page() {
         _ if panel.is_closed => {
@@ -225,7 +231,7 @@ fn plot(
             };
             plot.line(line);
         }
-        plot.vline(VLine::new("t", now).color(palette.accent).width(1.4));
+        plot.vline(VLine::new("", now).color(palette.accent).width(1.4));
         plot.pointer_coordinate()
     });
     let clicked = response.response.clicked() || response.response.dragged();

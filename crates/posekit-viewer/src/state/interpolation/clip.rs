@@ -18,7 +18,7 @@ use posekit_render::theme::Theme;
 
 use super::colors::{TRUTH, figure_of, hex_of_fill};
 use crate::state::camera::ViewCamera;
-use crate::state::clip::Clip;
+use crate::state::clip::{Clip, Source};
 use crate::state::display::{Compare, Look};
 use crate::state::session::ClipId;
 use crate::state::transport::Transport;
@@ -506,15 +506,16 @@ impl ClipLab {
         if height > 0.0 { height } else { 1.0 }
     }
 
-    /// The command that shows the same.
+    /// The command that shows the same; `None` for a motion that no file holds.
     #[must_use]
     pub fn command(&self) -> Option<String> {
-        use crate::state::clip::Source;
         let clip = self.clip()?;
         let name = match &clip.source {
             Source::File(path) => quoted(&path.display().to_string()),
             Source::Bytes => quoted(&clip.name),
-            Source::Sample(name) => name.clone(),
+            Source::Sample(name) => format!("sample:{name}"),
+            Source::Scene(Some(path)) => quoted(&path.display().to_string()),
+            Source::Scene(None) | Source::Made => return None,
         };
         let listed = offered()
             .into_iter()

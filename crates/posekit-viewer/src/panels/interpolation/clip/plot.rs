@@ -54,7 +54,7 @@ pub(in super::super) fn show(ui: &mut Ui, lab: &mut InterpolationLab, has_legend
             let line = Line::new(result.method.to_string(), PlotPoints::from(points));
             plot.line(line.color(color(hex_of_fill(result.method))).width(1.6));
         }
-        plot.vline(VLine::new("frame", now).color(palette.accent).width(1.4));
+        plot.vline(VLine::new("", now).color(palette.accent).width(1.4));
         plot.pointer_coordinate()
     });
     let clicked = response.response.clicked() || response.response.dragged();
