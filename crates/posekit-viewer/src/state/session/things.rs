@@ -17,7 +17,7 @@ use posekit_render::stage::{LIGHT_FULL_AT, Surroundings, keyed_camera};
 
 use super::{Handles, Session};
 use crate::gizmo::{Drag, Gizmo, Handle, Placement, Snap, Tool, Viewport};
-use crate::state::animate::{Authored, KeyId, Lane, LaneValue, Owner};
+use crate::state::animate::{KeyId, Lane, LaneValue, Owner};
 use crate::state::edit::Gesture;
 use crate::state::mode::{Mode, Space};
 use crate::state::things::{
@@ -652,12 +652,6 @@ impl Session {
             },
             ..camera
         })
-    }
-
-    /// Which key of a track is at the time shown, for a scene that is being worked on.
-    #[must_use]
-    pub fn key_here(&self, authored: &Authored, lane: Lane) -> Option<usize> {
-        index_at(authored.track(lane)?.times_secs(), self.key_time())
     }
 }
 
