@@ -146,7 +146,7 @@ pub struct Take {
 #[derive(Clone, Debug)]
 enum TakeCamera {
     View(ViewCamera),
-    Scene(KeyedCamera),
+    Scene(Box<KeyedCamera>),
 }
 
 impl Take {
@@ -173,7 +173,7 @@ impl Take {
             // A shot is drawn as its file is: nothing is left of how it was worked on.
             Some(camera) => Self {
                 stage: session.shot_stage(),
-                camera: TakeCamera::Scene(camera.view.clone()),
+                camera: TakeCamera::Scene(Box::new(camera.view.clone())),
                 film,
             },
             None => Self {

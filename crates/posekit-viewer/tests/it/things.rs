@@ -6,6 +6,7 @@ use glam::{DQuat, DVec3, Vec3};
 use posekit::rotation::Axis;
 use posekit_formats::scene::{self, Scene};
 use posekit_viewer::gizmo::Handle;
+use posekit_viewer::panels::view::project;
 use posekit_viewer::state::animate::{Lane, LaneValue, Owner, Start, start};
 use posekit_viewer::state::mode::Mode;
 use posekit_viewer::state::session::{KeyState, NewThing, Session};
@@ -375,12 +376,7 @@ fn a_click_on_a_symbol_picks_it_and_a_click_on_a_bone_the_joint() {
     let session = viewer(&window).session();
     let rect = view_rect(&window);
     let at = vector(session, AT).as_vec3();
-    let (w, h) = (rect.width() as u32, rect.height() as u32);
-    let pixel = session
-        .view_camera()
-        .project(at, (w, h))
-        .expect("it is seen");
-    let place = rect.min + Vec2::new(pixel.x, pixel.y);
+    let place = project(&session.view_camera(), at, rect).expect("it is seen");
     window.get_by_label("Elbow").click();
     window.run_steps(2);
     assert_eq!(

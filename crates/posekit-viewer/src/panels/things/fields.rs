@@ -138,7 +138,10 @@ fn edit(
         }
         (_, LaneValue::Orientation(orientation)) => {
             let euler = EULER.from_quat(orientation);
-            let shown = euler.angles_rad.map(f64::to_degrees);
+            // Zero has one sign.
+            let shown = euler
+                .angles_rad
+                .map(|angle| (angle.to_degrees() * 1e9).round() / 1e9 + 0.0);
             let mut angles = shown;
             let response = three(ui, lane, &mut angles, 0.5, "\u{b0}");
             // Angles are one way to write an orientation of several: what was not touched stays.

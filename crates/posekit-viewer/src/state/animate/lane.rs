@@ -112,7 +112,7 @@ impl Lane {
             Self::Translation(_) | Self::PropTranslation(_) => "Translation",
             Self::CameraPosition(_) | Self::LightPosition(_) => "Position",
             Self::CameraTarget(_) => "Target",
-            Self::CameraFov(_) => "Field of view",
+            Self::CameraFov(_) => "View angle",
             Self::LightColor(_) => "Colour",
             Self::LightStrength(_) => "Strength",
             Self::PropScale(_) => "Scale",
