@@ -129,10 +129,11 @@ fn save_button(ui: &mut Ui, session: &Session, library: &mut PoseLibrary, panel:
         1 => "Save pose of 1 joint".to_owned(),
         count => format!("Save pose of {count} joints"),
     };
-    let button = Button::new(text).min_size(vec2(ui.available_width(), 26.0));
+    let size = vec2(ui.available_width(), 26.0);
     let says = "Keep the pose shown under a name: of the selected joints, or of the whole figure \
                 when none is selected";
-    if !ui.add(button).on_hover_text(says).clicked() {
+    let button = ui.add_sized(size, Button::new(text));
+    if !button.on_hover_text(says).clicked() {
         return;
     }
     let (Some(pose), Some(clip)) = (session.shown_local_pose(), session.active_clip()) else {

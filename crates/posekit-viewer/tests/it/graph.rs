@@ -363,6 +363,9 @@ fn a_double_click_on_a_curve_puts_a_key_there_and_x_takes_it_away() {
     let share = (value / 60.0) as f32;
     let place = Pos2::new(between, zero + (sixty - zero) * share);
     assert!(rect.contains(place));
+    // The test's clock goes on by a quarter of a second with every event.
+    let options = |options: &mut egui::Options| options.input_options.max_double_click_delay = 2.0;
+    window.ctx.options_mut(options);
     window.hover_at(place);
     window.step();
     for _ in 0..2 {
