@@ -44,9 +44,9 @@ pub enum Input {
     /// the others are opened beside it.
     Together {
         /// The scene.
-        scene: Box<Input>,
+        scene: Box<Self>,
         /// What came with it.
-        others: Vec<Input>,
+        others: Vec<Self>,
     },
     /// A scene that was kept when the program ended without saving it.
     Kept(Box<Kept>),

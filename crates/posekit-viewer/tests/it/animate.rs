@@ -448,6 +448,9 @@ fn keys_are_selected_in_a_box_deleted_and_added() {
     assert_eq!(authored(&window).key_count(), count - selected.len());
     assert_eq!(times(authored(&window), Lane::Rotation(joints[0])).len(), 2);
     let place = summary_at(&window, 50.0 / rate);
+    window
+        .ctx
+        .options_mut(|options| options.input_options.max_double_click_delay = 5.0);
     window.hover_at(place);
     window.step();
     for _ in 0..2 {
@@ -461,7 +464,7 @@ fn keys_are_selected_in_a_box_deleted_and_added() {
     );
 }
 
-/// A click within one step of the clock: two of them are a double click.
+/// A click. Steps of the clock are long here: two of them are a double click all the same.
 fn click_once(window: &mut Window, at: Pos2) {
     for pressed in [true, false] {
         window.event(Event::PointerButton {
@@ -675,4 +678,109 @@ fn closing_asks_where_something_is_not_saved() {
     window.run_steps(2);
     assert!(viewer(&window).session().clips().is_empty());
     std::fs::remove_file(saved).expect("it was saved once");
+}
+
+#[test]
+fn with_ik_a_limb_is_keyed_as_one_step() {
+    let mut session = animated(Start::OverMotion);
+    let skeleton = walking().motion.skeleton().clone();
+    let hand = skeleton.find("LeftHand").expect("the sample has hands");
+    let mut settings = session.animate();
+    settings.uses_ik = true;
+    settings.auto_key = true;
+    session.set_animate(settings);
+    session.transport.go_to_frame(30);
+    session.select(Some(hand));
+    let rect = egui::Rect::from_min_size(Pos2::ZERO, Vec2::new(900.0, 700.0));
+    session.set_aspect(rect.aspect_ratio());
+    let viewport = posekit_viewer::gizmo::Viewport::new(session.view_camera(), rect);
+    let handle = posekit_viewer::gizmo::Handle::MoveOnScreen;
+    let from = place_on(&session, handle, rect);
+    assert!(session.grab(handle, from, &viewport));
+    session.drag_to(from + Vec2::new(-20.0, -60.0), &viewport, None);
+    let target = session.target().expect("it is dragged").position;
+    session.drop_handle();
+    let authored = session.authored().expect("a scene");
+    assert_eq!(authored.undo_count(), 1);
+    let keyed: Vec<_> = authored
+        .animation()
+        .rotations()
+        .map(|(joint, _)| joint)
+        .collect();
+    let arm = ["LeftUpperArm", "LeftLowerArm"].map(|name| skeleton.find(name).expect("an arm"));
+    assert!(arm.iter().all(|joint| keyed.contains(joint)), "{keyed:?}");
+    let leg = skeleton.find("RightUpperLeg").expect("a leg");
+    assert!(!keyed.contains(&leg), "the rest follows the motion");
+    let clip = session.active_clip().expect("open");
+    let there = clip.global.position(30, hand);
+    assert!(there.distance(target) < 0.02, "{there} {target}");
+    session.undo();
+    let authored = session.authored().expect("a scene");
+    assert_eq!(authored.key_count(), 0);
+}
+
+#[test]
+fn copied_keys_find_their_joints_by_name_elsewhere() {
+    use posekit_viewer::state::animate::edit::clipboard::{Clipboard, mirrored};
+    let mut session = animated(Start::Pose);
+    let skeleton = walking().motion.skeleton().clone();
+    let [left, right] = ["LeftUpperArm", "RightUpperArm"].map(|name| skeleton.find(name));
+    let (left, right) = (left.expect("an arm"), right.expect("an arm"));
+    key_turned(&mut session, left, 20, glam::DQuat::from_rotation_z(0.7));
+    let authored = session.authored().expect("a scene");
+    let keys = authored.selection().clone();
+    assert_eq!(keys.len(), 1);
+    let copied = Clipboard::of(authored, &keys);
+
+    // A figure of fewer joints in another order.
+    let mut scene = Scene::new(scene::SkeletonSource::inline(&skeleton));
+    let scene::SkeletonSource::Inline(joints) = &mut scene.skeleton else {
+        panic!("it was made so");
+    };
+    joints.retain(|joint| ["Hips", "LeftUpperArm"].contains(&joint.name.as_str()));
+    joints[1].parent = Some(0);
+    let other = Authored::new(scene, Default::default()).expect("two joints");
+    let edit = copied
+        .paste(&other, 0.25, false)
+        .expect("one of them is there");
+    let arm = other.skeleton().find("LeftUpperArm").expect("kept");
+    let pasted: Vec<KeyId> = edit.selection.into_iter().collect();
+    assert_eq!(
+        pasted,
+        [KeyId {
+            lane: Lane::Rotation(arm),
+            index: 0
+        }]
+    );
+    let none = Authored::new(
+        Scene::new(scene::SkeletonSource::File("sample:arm".into())),
+        {
+            let arm = posekit::sample::by_name("arm").expect("a sample");
+            [("sample:arm".to_owned(), std::sync::Arc::new(arm))].into()
+        },
+    );
+    let none = none.expect("an arm of steel");
+    assert_eq!(copied.paste(&none, 0.0, false), None);
+
+    // Selected on one side, the other side gets the image, and the first keeps its own.
+    let before = authored.pose_at(20.0 / 60.0);
+    let edit = mirrored(authored, &keys).expect("arms have partners");
+    session.author(|authored| authored.set_tracks("Mirror", None, edit.changes, edit.selection));
+    let authored = session.authored().expect("a scene");
+    let after = authored.pose_at(20.0 / 60.0);
+    let axis = posekit::keyframe::edit::mirror_axis(&skeleton);
+    let image = posekit::keyframe::edit::mirror_pose(&skeleton, axis, &before);
+    let gap = |a: Quat, b: Quat| a.angle_between(b);
+    assert!(
+        gap(
+            after.rotations[right.index()],
+            image.rotations[right.index()]
+        ) < 1e-3
+    );
+    assert!(
+        gap(
+            after.rotations[left.index()],
+            before.rotations[left.index()]
+        ) < 1e-3
+    );
 }

@@ -264,7 +264,9 @@ fn drag(ui: &Ui, view: &mut TimeView, axis: &Axis, response: &Response, session:
     if under.is_some() || matches!(view.held, Some(Held::End(..))) {
         ui.ctx().set_cursor_icon(CursorIcon::ResizeHorizontal);
     }
-    if ui.input(|i| i.pointer.primary_pressed()) && response.is_pointer_button_down_on() {
+    // A quick click goes down and up within one picture.
+    let is_taken = response.is_pointer_button_down_on() || response.clicked();
+    if is_taken && ui.input(|i| i.pointer.primary_pressed()) {
         // While an end is dragged the view does not follow it, or it would run away from the pointer.
         if under.is_some() {
             view.seen = Some((axis.start_secs, axis.secs_per_point));

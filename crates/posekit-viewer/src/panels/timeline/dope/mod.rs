@@ -266,7 +266,8 @@ fn interact(ui: &Ui, room: &Room, response: &Response, session: &mut Session, do
         }
         return;
     }
-    let begins = pressed && response.is_pointer_button_down_on();
+    // A quick click goes down and up within one picture.
+    let begins = pressed && (response.is_pointer_button_down_on() || response.clicked());
     if begins {
         press(room, pointer, shift, session, dope);
     }
