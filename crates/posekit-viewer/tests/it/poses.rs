@@ -83,7 +83,7 @@ fn drag_blend(window: &mut Window, share: f32) -> egui::Pos2 {
     let sliders = window.get_all_by_role(egui::accesskit::Role::Slider);
     let blend = sliders
         .filter(|slider| slider.rect().right() < 250.0)
-        .last()
+        .next_back()
         .expect("the slider is shown")
         .rect();
     let from = blend.left_center() + egui::vec2(6.0, 0.0);
