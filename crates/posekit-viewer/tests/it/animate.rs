@@ -668,6 +668,12 @@ fn closing_asks_where_something_is_not_saved() {
     };
     assert!(saved.ends_with("shot.posekit.toml"));
     press(&mut window, Modifiers::COMMAND, Key::Z);
+    let info = window.input_mut().viewports.entry(egui::ViewportId::ROOT);
+    info.or_default().events.push(egui::ViewportEvent::Close);
+    window.run_steps(5);
+    assert!(viewer(&window).is_asking(), "the window, too, asks");
+    window.get_by_label("Cancel").click();
+    window.run_steps(3);
     close_clip(&mut window);
     assert!(viewer(&window).is_asking());
     window.get_by_label("Cancel").click();
