@@ -642,7 +642,9 @@ fn what_a_run_left_that_fell_over_is_opened_again() {
 
 /// Closes the clip in the list: its button is there while the pointer is over it.
 fn close_clip(window: &mut Window) {
-    window.hover_at(Pos2::new(128.0, 140.0));
+    let clip = viewer(window).session().active_clip().expect("open");
+    let row = window.get_by_label(&clip.name).rect();
+    window.hover_at(row.center());
     window.run_steps(2);
     window.get_by_label("Close").click();
     window.run_steps(5);
