@@ -91,3 +91,12 @@ fn files_are_known_by_the_end_of_their_names() {
     assert!(is_poses_name("walk.poses.toml") && is_poses_name("WALK.POSES.TOML"));
     assert!(!is_poses_name("walk.posekit.toml") && !is_poses_name("poses.toml"));
 }
+
+#[test]
+fn the_file_of_the_guide_is_one() {
+    let page = include_str!("../../../../docs/pose-library.md");
+    let (_, rest) = page.split_once("```toml\n").expect("it shows a file");
+    let (text, _) = rest.split_once("```").expect("it ends");
+    let poses = read(text.as_bytes()).expect("it is one");
+    assert_eq!((poses.len(), poses[0].joints.len()), (1, 1));
+}

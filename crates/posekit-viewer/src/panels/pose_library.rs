@@ -6,7 +6,7 @@ use std::sync::Arc;
 use egui::{Button, Color32, Rect, RichText, ScrollArea, Slider, TextEdit, Ui, pos2, vec2};
 use posekit::keyframe::edit::blend_poses;
 use posekit::pose::LocalPose;
-use posekit::skeleton::Skeleton;
+use posekit::skeleton::{JointId, Skeleton};
 
 use super::row;
 use crate::icons::{Icon, icon_button};
@@ -123,26 +123,30 @@ pub fn show(
 }
 
 fn save_button(ui: &mut Ui, session: &Session, library: &mut PoseLibrary, panel: &mut PosePanel) {
-    let joints = session.selection();
+    // End Sites do not turn: with nothing else selected the whole figure is meant.
+    let skeleton = session.active_clip().map(|clip| clip.skeleton());
+    let turns = |joint: &JointId| skeleton.is_some_and(|it| !it.is_end_site(*joint));
+    let joints: Vec<JointId> = session.selection().iter().copied().filter(turns).collect();
     let text = match joints.len() {
         0 => "Save pose".to_owned(),
         1 => "Save pose of 1 joint".to_owned(),
         count => format!("Save pose of {count} joints"),
     };
-    let button = Button::new(text).min_size(vec2(ui.available_width(), 26.0));
+    let size = vec2(ui.available_width(), 26.0);
     let says = "Keep the pose shown under a name: of the selected joints, or of the whole figure \
                 when none is selected";
-    if !ui.add(button).on_hover_text(says).clicked() {
+    let button = ui.add_sized(size, Button::new(text));
+    if !button.on_hover_text(says).clicked() {
         return;
     }
     let (Some(pose), Some(clip)) = (session.shown_local_pose(), session.active_clip()) else {
         return;
     };
-    let name = match joints {
+    let name = match joints.as_slice() {
         [joint] => clip.skeleton().unique_name(*joint).to_owned(),
         _ => "Pose".to_owned(),
     };
-    if let Some(pose) = saved(&name, clip.skeleton(), &pose, joints) {
+    if let Some(pose) = saved(&name, clip.skeleton(), &pose, &joints) {
         panel.selected = Some(library.add(pose));
     }
 }

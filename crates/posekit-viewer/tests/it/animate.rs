@@ -98,6 +98,10 @@ fn times(authored: &Authored, lane: Lane) -> Vec<f64> {
 }
 
 /// The middle of the dope sheet's row of all keys, at a time.
+#[allow(
+    clippy::cast_possible_truncation,
+    reason = "a share of 0 to 1 of a width on the screen"
+)]
 fn summary_at(window: &Window, secs: f64) -> Pos2 {
     let sheet = window.get_by_label_contains("Dope sheet:").rect();
     // All of the range is in view at first, with 18 points at both ends; the scroll bar is beside it.
@@ -642,7 +646,9 @@ fn what_a_run_left_that_fell_over_is_opened_again() {
 
 /// Closes the clip in the list: its button is there while the pointer is over it.
 fn close_clip(window: &mut Window) {
-    window.hover_at(Pos2::new(128.0, 140.0));
+    let clip = viewer(window).session().active_clip().expect("open");
+    let row = window.get_by_label(&clip.name).rect();
+    window.hover_at(row.center());
     window.run_steps(2);
     window.get_by_label("Close").click();
     window.run_steps(5);
@@ -668,6 +674,12 @@ fn closing_asks_where_something_is_not_saved() {
     };
     assert!(saved.ends_with("shot.posekit.toml"));
     press(&mut window, Modifiers::COMMAND, Key::Z);
+    let info = window.input_mut().viewports.entry(egui::ViewportId::ROOT);
+    info.or_default().events.push(egui::ViewportEvent::Close);
+    window.run_steps(5);
+    assert!(viewer(&window).is_asking(), "the window, too, asks");
+    window.get_by_label("Cancel").click();
+    window.run_steps(3);
     close_clip(&mut window);
     assert!(viewer(&window).is_asking());
     window.get_by_label("Cancel").click();

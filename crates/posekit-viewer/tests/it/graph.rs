@@ -359,10 +359,14 @@ fn a_double_click_on_a_curve_puts_a_key_there_and_x_takes_it_away() {
     let between = at(&window, dot(0, 0)).x * 0.5 + at(&window, dot(1, 0)).x * 0.5;
     let curves = std::sync::Arc::clone(&panel(&window).graph().curves()[&elbow()]);
     let value = curves.at(0.5)[0];
-    let [zero, sixty] = [at(&window, dot(0, 0)).y, at(&window, dot(1, 0)).y];
-    let share = (value / 60.0) as f32;
-    let place = Pos2::new(between, zero + (sixty - zero) * share);
+    let zero = at(&window, dot(0, 0)).y;
+    let per_point = degrees_per_point(&window);
+    let points = (0_u16..400).find(|points| f64::from(*points) * per_point >= value);
+    let place = Pos2::new(between, zero - f32::from(points.expect("it is in view")));
     assert!(rect.contains(place));
+    // The test's clock goes on by a quarter of a second with every event.
+    let options = |options: &mut egui::Options| options.input_options.max_double_click_delay = 2.0;
+    window.ctx.options_mut(options);
     window.hover_at(place);
     window.step();
     for _ in 0..2 {

@@ -80,12 +80,11 @@ fn without_auto_key_it_is_held_until_it_is_keyed() {
 
 /// Presses on the blend slider and drags it so far, in shares of its length. The button is still down.
 fn drag_blend(window: &mut Window, share: f32) -> egui::Pos2 {
-    let sliders = window.get_all_by_role(egui::accesskit::Role::Slider);
-    let blend = sliders
-        .filter(|slider| slider.rect().right() < 250.0)
-        .last()
-        .expect("the slider is shown")
-        .rect();
+    let blend = {
+        let mut sliders = window.get_all_by_role(egui::accesskit::Role::Slider);
+        let slider = sliders.rfind(|slider| slider.rect().right() < 250.0);
+        slider.expect("the slider is shown").rect()
+    };
     let from = blend.left_center() + egui::vec2(6.0, 0.0);
     let to = from + egui::vec2((blend.width() - 12.0) * share, 0.0);
     super::editing::drag(window, from, to);

@@ -62,13 +62,13 @@ fn head(ui: &mut Ui, panel: &mut GraphPanel) {
     ui.horizontal(|ui| {
         ui.set_min_height(24.0);
         let order = panel.graph.order();
-        let text = order.map_or("As in the file".to_owned(), name_of);
+        let text = order.map_or("Angles as in file".to_owned(), name_of);
         egui::ComboBox::from_id_salt("order of angles")
             .selected_text(text)
-            .width(112.0)
+            .width(124.0)
             .show_ui(ui, |ui| {
                 let mut chosen = order;
-                ui.selectable_value(&mut chosen, None, "As in the file");
+                ui.selectable_value(&mut chosen, None, "Angles as in file");
                 for order in ORDERS {
                     ui.selectable_value(&mut chosen, Some(order), name_of(order));
                 }
