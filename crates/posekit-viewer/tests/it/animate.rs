@@ -98,6 +98,10 @@ fn times(authored: &Authored, lane: Lane) -> Vec<f64> {
 }
 
 /// The middle of the dope sheet's row of all keys, at a time.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "a share of a width on the screen"
+)]
 fn summary_at(window: &Window, secs: f64) -> Pos2 {
     let sheet = window.get_by_label_contains("Dope sheet:").rect();
     // All of the range is in view at first, with 18 points at both ends; the scroll bar is beside it.
