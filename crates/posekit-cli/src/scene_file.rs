@@ -2,12 +2,13 @@
 
 use std::fmt;
 use std::fs;
-use std::path::Path;
+use std::path::{Component, Path};
 use std::sync::Arc;
 
 use posekit::motion::{Motion, PositionPolicy};
 use posekit::rotation::EulerOrder;
 use posekit_formats::bvh::{self, Bvh};
+use posekit_formats::gltf;
 use posekit_formats::scene::{self, Scene, Shot};
 
 use crate::failure::{Failure, one_line};
@@ -78,7 +79,11 @@ fn motion(folder: &Path, named: &str) -> Result<Arc<Motion>, String> {
             .map(Arc::new)
             .map_err(|error| error.to_string());
     }
-    let path = folder.join(named);
+    let (file, animation) = gltf::file_and_animation(named);
+    let path = folder.join(file);
+    if gltf::is_gltf_name(file) {
+        return gltf_motion(&path, animation).map(Arc::new);
+    }
     if is_scene(&path) {
         return Err("a scene cannot play another scene; bake it to a .bvh first".to_owned());
     }
@@ -86,6 +91,20 @@ fn motion(folder: &Path, named: &str) -> Result<Arc<Motion>, String> {
     let import = bvh::read(&bytes).map_err(|error| error.to_string())?;
     let motion = import.document.to_motion(PositionPolicy::Replace);
     motion.map(Arc::new).map_err(|error| error.to_string())
+}
+
+/// An animation of a glTF file. Buffers that it names lie beside it, in its folder or one below.
+fn gltf_motion(path: &Path, animation: Option<&str>) -> Result<Motion, String> {
+    let bytes = fs::read(path).map_err(|error| Failure::cannot_read(path, &error).to_string())?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let fetch = |name: &str| {
+        let is_below = |part| matches!(part, Component::Normal(_) | Component::CurDir);
+        let is_beside = Path::new(name).components().all(is_below);
+        is_beside.then(|| fs::read(folder.join(name)).ok())?
+    };
+    let import = gltf::read_with(&bytes, fetch).map_err(|error| error.to_string())?;
+    let motion = import.document.motion(animation);
+    motion.map_err(|error| error.to_string())
 }
 
 /// A message as the error that the library carries.
