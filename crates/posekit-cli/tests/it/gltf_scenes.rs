@@ -29,13 +29,13 @@ fn folder() -> Folder {
 #[test]
 fn a_gltf_animation_plays_in_a_scene() {
     let folder = folder();
-    let text = folder.succeed(&["info", "rig.posekit.toml"]);
+    let text = folder.succeed(&["info", "--tree", "rig.posekit.toml"]);
     assert!(
         text.contains("16 at 10 fps") && text.contains("between"),
         "{text}"
     );
     let text = folder.succeed(&["keys", "print", "rig.posekit.toml"]);
-    assert!(text.contains("rig.gltf#all kinds"), "{text}");
+    assert!(text.contains("0 keys on 0 tracks"), "{text}");
     folder.succeed(&["fk", "rig.posekit.toml", "-o", "at.csv", "--joints", "tip"]);
     let text = folder.read("at.csv");
     // At 0.4 s a key is reached, so that sampling the animation at its own rate does not blur it. NumPy's place of
@@ -50,7 +50,7 @@ fn a_gltf_animation_plays_in_a_scene() {
     let wanted = at_key["positions"]["tip"].as_array().unwrap();
     let row = text.lines().nth(5).unwrap();
     let row: Vec<f64> = row.split(',').map(|cell| cell.parse().unwrap()).collect();
-    let place = &row[row.len() - 3..];
+    let place = &row[2..5];
     for (ours, wanted) in place.iter().zip(wanted) {
         let wanted = wanted.as_f64().unwrap();
         assert!((ours - wanted).abs() < 1e-4, "{place:?} {at_key}");
