@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use glam::Vec3;
+use glam::DVec3;
 use posekit::pose::{GlobalPose, LocalPose};
 use posekit_formats::gltf::{self, Gltf};
 use serde_json::Value;
@@ -30,7 +30,7 @@ fn check(file: &str, document: &Gltf, pose: &GlobalPose, wanted: &Value, toleran
             .find(name)
             .unwrap_or_else(|| panic!("{file} has {name}"));
         let number = |axis: usize| position[axis].as_f64().unwrap();
-        let there = Vec3::new(number(0) as f32, number(1) as f32, number(2) as f32);
+        let there = DVec3::new(number(0), number(1), number(2)).as_vec3();
         let off = there.distance(pose.positions[joint.index()]) / skeleton.height();
         assert!(off < tolerance, "{file}: {name} is off by {off} heights");
     }
