@@ -7,6 +7,7 @@
 pub mod arrays;
 pub mod bvh;
 pub mod csv;
+pub mod gltf;
 pub mod json;
 pub mod npz;
 mod number_text;

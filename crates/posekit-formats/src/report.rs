@@ -178,11 +178,21 @@ impl<'a> Reporter<'a> {
 
     /// Notes an occurrence at a byte offset; the message is only made when it is kept.
     pub(crate) fn warn(&mut self, code: WarningCode, at: usize, message: impl FnOnce() -> String) {
+        self.warn_where(code, || at, message);
+    }
+
+    /// As [`warn`](Self::warn), where the place has to be looked for: only when it is kept.
+    pub(crate) fn warn_where(
+        &mut self,
+        code: WarningCode,
+        find: impl FnOnce() -> usize,
+        message: impl FnOnce() -> String,
+    ) {
         let (occurrences, folded_at) = self.seen[code as usize];
         if occurrences > WARNINGS_KEPT_PER_CODE {
             self.report.warnings[folded_at].count += 1;
         } else {
-            let place = self.locate(at);
+            let place = self.locate(find());
             self.seen[code as usize].1 = self.report.warnings.len();
             self.report.warnings.push(Warning {
                 code,

@@ -117,6 +117,22 @@ warning_codes! {
     UnknownMaterial, "unknown-material", Warning;
     /// A visual has no shape, or one that the format does not have; it is left out.
     UnknownShape, "unknown-shape", Warning;
+    /// A buffer of numbers is not to be had; what is in it was left out.
+    MissingBuffer, "missing-buffer", Warning;
+    /// A glTF file has another skin with joints that the first has not; they were left out.
+    OtherSkin, "other-skin", Note;
+    /// A glTF node has no name; it is called by its number.
+    UnnamedNode, "unnamed-node", Note;
+    /// A glTF node is scaled; the scale was taken into the translations below it.
+    NodeScale, "node-scale", Note;
+    /// A glTF node has a scale that differs between axes, or a matrix that shears or flattens; what is below it is in its place at rest only.
+    UnevenScale, "uneven-scale", Warning;
+    /// The quaternion of a glTF node is not of unit length; its direction is used.
+    RotationNotUnit, "rotation-not-unit", Warning;
+    /// An animation changes the scale of a joint; its scale at rest was used.
+    AnimatedScale, "animated-scale", Warning;
+    /// A channel of an animation could not be read and was left out.
+    UnreadableTrack, "unreadable-track", Warning;
 }
 
 impl fmt::Display for WarningCode {

@@ -14,6 +14,7 @@ mod failures;
 mod fix;
 mod fk;
 mod floors;
+mod gltf_scenes;
 mod harness;
 mod ik;
 mod ik_study;

@@ -33,7 +33,7 @@ pub struct Scene {
 /// Where the skeleton comes from.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SkeletonSource {
-    /// A motion file, its path relative to the scene's folder, or a clip of our own such as
+    /// A motion or glTF file, its path relative to the scene's folder, or a clip of our own such as
     /// `sample:walk`.
     File(String),
     /// The joints themselves, a parent before its children.
@@ -61,7 +61,8 @@ pub struct InlineJoint {
 /// first one shows its first frame; past its end a layer keeps its last one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MotionLayer {
-    /// The file, its path relative to the scene's folder, or a clip of our own.
+    /// The file, its path relative to the scene's folder, or a clip of our own. `knight.glb#Walk` is an
+    /// animation of a glTF file.
     pub file: String,
     /// When it starts in the scene, in seconds.
     pub start_secs: f64,

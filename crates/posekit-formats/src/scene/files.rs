@@ -6,7 +6,7 @@ use std::sync::Arc;
 use posekit::motion::{Motion, PositionPolicy};
 
 use super::{AUTHORED_WALK, SceneReadError, Shot, is_scene_name, read};
-use crate::bvh;
+use crate::{bvh, gltf};
 
 /// What the name of a clip of our own starts with in a scene.
 pub const SAMPLE_PREFIX: &str = "sample:";
@@ -26,14 +26,15 @@ impl fmt::Display for MotionFileError {
 
 impl std::error::Error for MotionFileError {}
 
-/// The motion that a scene means by a name: a clip of our own, or that of the BVH file whose bytes
-/// `bytes_of` gives. It is what [`Shot::new`] wants to be told.
+/// The motion that a scene means by a name: a clip of our own, that of a BVH file, or an animation of a
+/// glTF file (`knight.glb#Idle`, the first one without a name). `bytes_of` gives the bytes of a file by its
+/// name as the scene has it, without the animation's. It is what [`Shot::new`] wants to be told.
 ///
 /// # Errors
 /// [`MotionFileError`] when there is no such sample, the file cannot be had, or it holds no motion.
 pub fn motion_of(
     named: &str,
-    bytes_of: impl FnOnce(&str) -> Result<Vec<u8>, String>,
+    bytes_of: impl Fn(&str) -> Result<Vec<u8>, String>,
 ) -> Result<Arc<Motion>, MotionFileError> {
     if let Some(sample) = named.strip_prefix(SAMPLE_PREFIX) {
         let motion = sample_motion(sample);
@@ -45,11 +46,29 @@ pub fn motion_of(
         let why = "a scene cannot play another scene; bake it to a .bvh first";
         return Err(MotionFileError(why.to_owned()));
     }
-    let bytes = bytes_of(named).map_err(MotionFileError)?;
+    let (file, animation) = gltf::file_and_animation(named);
+    let bytes = bytes_of(file).map_err(MotionFileError)?;
     let refused = |error: &dyn fmt::Display| MotionFileError(error.to_string());
+    if gltf::is_gltf_name(file) {
+        let beside = |name: &str| bytes_of(&name_beside(file, name)?).ok();
+        let import = gltf::read_with(&bytes, beside).map_err(|error| refused(&error))?;
+        let motion = import.document.motion(animation);
+        return motion.map(Arc::new).map_err(|error| refused(&error));
+    }
     let import = bvh::read(&bytes).map_err(|error| refused(&error))?;
     let motion = import.document.to_motion(PositionPolicy::Replace);
     motion.map(Arc::new).map_err(|error| refused(&error))
+}
+
+/// The name of a buffer that a glTF file names, as the scene would have it; `None` unless it lies beside
+/// that file or in a folder below.
+fn name_beside(file: &str, buffer: &str) -> Option<String> {
+    let is_below = |part: &str| !matches!(part, "" | "..") && !part.contains(['\\', ':']);
+    if !buffer.split('/').all(is_below) {
+        return None;
+    }
+    let folder = file.rfind(['/', '\\']).map_or("", |end| &file[..=end]);
+    Some(format!("{folder}{buffer}"))
 }
 
 /// A clip of our own by its name, the authored walk among them.
@@ -80,5 +99,30 @@ impl SceneReadError {
             more => format!(" (and {more} more problems)"),
         };
         format!("{name}:{line}:{column}: {place}{}{more}", first.message)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::name_beside;
+
+    #[test]
+    fn buffers_are_fetched_from_beside_their_file_and_from_nowhere_else() {
+        let is = |file, buffer, wanted: Option<&str>| {
+            assert_eq!(name_beside(file, buffer).as_deref(), wanted, "{buffer}");
+        };
+        is("rig.gltf", "rig.bin", Some("rig.bin"));
+        is("a/rig.gltf", "data/rig.bin", Some("a/data/rig.bin"));
+        is("C:\\a\\rig.gltf", "rig.bin", Some("C:\\a\\rig.bin"));
+        for outside in [
+            "../rig.bin",
+            "/etc/passwd",
+            "a/../../b",
+            "c:/b",
+            "..\\b",
+            "",
+        ] {
+            is("a/rig.gltf", outside, None);
+        }
     }
 }

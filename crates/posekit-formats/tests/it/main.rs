@@ -16,6 +16,8 @@ mod check_clip;
 mod check_corruptions;
 mod check_damage;
 mod check_recall;
+mod gltf_poses;
+mod gltf_wild;
 mod guide_pages;
 mod ik_course;
 mod ik_course_jacobian;
