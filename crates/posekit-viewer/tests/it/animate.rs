@@ -98,9 +98,9 @@ fn times(authored: &Authored, lane: Lane) -> Vec<f64> {
 }
 
 /// The middle of the dope sheet's row of all keys, at a time.
-#[allow(
+#[expect(
     clippy::cast_possible_truncation,
-    reason = "a share of 0 to 1 of a width on the screen"
+    reason = "a share of a width on the screen"
 )]
 fn summary_at(window: &Window, secs: f64) -> Pos2 {
     let sheet = window.get_by_label_contains("Dope sheet:").rect();
