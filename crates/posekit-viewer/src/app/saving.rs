@@ -11,6 +11,7 @@ use crate::panels::unsaved::{Answer, ask_to_recover, ask_to_save};
 #[cfg(not(target_arch = "wasm32"))]
 use crate::state::animate::place;
 use crate::state::clip::Source;
+#[cfg(not(target_arch = "wasm32"))]
 use crate::state::notices::NoticeKind;
 use crate::state::session::ClipId;
 use crate::work::autosave::Kept;
