@@ -17,6 +17,7 @@ mod poses;
 mod reading;
 mod real_files;
 mod saving;
+mod scenes;
 mod status;
 mod things;
 mod window;
