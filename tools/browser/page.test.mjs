@@ -2,6 +2,7 @@
 // What was done is waited for in what the page says of itself; what is asked then is asked of pixels.
 
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
 import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -14,7 +15,7 @@ import { PNG } from "pngjs";
 import { BROWSERS, WITHOUT_GRAPHICS } from "./browsers.mjs";
 import { Desk } from "./desk.mjs";
 import { difference, meanDifference, part, shrunk, standingOut } from "./picture.mjs";
-import { serve } from "./site.mjs";
+import { POSEKIT, serve } from "./site.mjs";
 
 /** Two pictures of different poses or figures differ by this much of the view at least. */
 const OTHER = 0.004;
@@ -218,6 +219,45 @@ test("what is saved arrives in the downloads", { skip: !chromium }, async () => 
     assert.equal(film.subarray(0, 6).toString("latin1"), "GIF89a");
     assert.equal(film.at(-1), 0x3b, "a whole GIF");
     await desk.becomes({ export: "closed" });
+    assert.deepEqual(desk.complaints, []);
+  } finally {
+    await desk.close();
+    rmSync(folder, { recursive: true, force: true });
+  }
+});
+
+test("a scene is dropped, animated and saved, and the labs are there", { skip: !chromium }, async () => {
+  const desk = await Desk.open(chromium, site.address);
+  const folder = mkdtempSync(join(tmpdir(), "posekit-scene-"));
+  try {
+    const session = await desk.page.createCDPSession();
+    const downloads = join(folder, "downloads");
+    const behavior = { behavior: "allow", downloadPath: downloads, eventsEnabled: true };
+    let complete = 0;
+    session.on("Browser.downloadProgress", ({ state }) => {
+      if (state === "completed") complete += 1;
+    });
+    await session.send("Browser.setDownloadBehavior", behavior);
+    const name = "shot.posekit.toml";
+    const scene = join(folder, name);
+    execFileSync(POSEKIT, ["keys", "reduce", "sample:walk", "-o", scene, "--quiet"]);
+    await desk.becomes({ playing: true, working: false });
+    await desk.drop(scene);
+    await desk.becomes({ clip: name, working: false });
+    await desk.press("a");
+    await desk.becomes({ mode: "Animate" });
+    await desk.settled(() => desk.whole());
+    await desk.show("animate");
+    await desk.press("Control+s");
+    await desk.becomes({ saved: 1 });
+    await desk.until("the scene in the downloads", () => complete === 1);
+    assert.deepEqual(readFileSync(join(downloads, name)), readFileSync(scene), "what was read is what is saved");
+    for (const [key, mode] of [["Shift+b", "Interpolation lab"], ["b", "Arm lab"], ["q", "View"]]) {
+      await desk.press(key);
+      await desk.becomes({ mode });
+      await desk.settled(() => desk.whole());
+      await desk.show(mode.toLowerCase().replace(" ", "-"));
+    }
     assert.deepEqual(desk.complaints, []);
   } finally {
     await desk.close();
