@@ -476,6 +476,19 @@ fn channels_are_hidden_and_other_lanes_shown() {
 }
 
 #[test]
+fn what_is_picked_of_the_scene_shows_its_curves() {
+    let mut window = graphing();
+    let camera = Lane::CameraPosition(0);
+    let is_shown = |window: &Window| panel(window).graph().curves().contains_key(&camera);
+    assert!(!is_shown(&window));
+    window.get_by_label("Camera Main").click();
+    window.run_steps(2);
+    assert!(is_shown(&window));
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(!is_shown(&window), "it goes with what was picked");
+}
+
+#[test]
 fn numbers_of_the_selected_key_can_be_typed() {
     let mut window = graphing();
     let place = at(&window, dot(1, 0));

@@ -55,7 +55,7 @@ pub(super) fn empty(ui: &Ui, rect: Rect) {
     ui.painter().text(
         rect.center(),
         Align2::CENTER_CENTER,
-        "Select a keyed joint, or keys in the dope sheet, to see their curves",
+        "Select what is keyed, or keys in the dope sheet, to see its curves",
         FontId::proportional(13.0),
         palette.quiet,
     );

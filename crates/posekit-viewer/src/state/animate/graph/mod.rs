@@ -109,13 +109,15 @@ impl Graph {
         self.follow_selection(authored.selection());
     }
 
-    /// The keyed lanes of selected joints and keys, and those that were pinned.
+    /// The keyed lanes of selected joints and keys, of what is picked of the scene, and those that were pinned.
     fn shown_lanes(&self, session: &Session, authored: &Authored) -> BTreeSet<Lane> {
         let joints = session.selection().iter();
         let of_joints = joints.flat_map(|&joint| [Lane::Rotation(joint), Lane::Translation(joint)]);
         let of_keys = authored.selection().iter().map(|key| key.lane);
+        let of_picked = session.picked().map(|picked| picked.owner.lanes());
         let pinned = self.pinned.iter().copied();
-        of_joints.chain(of_keys).chain(pinned).collect()
+        let lanes = of_joints.chain(of_keys).chain(pinned);
+        lanes.chain(of_picked.into_iter().flatten()).collect()
     }
 
     /// The order in which a lane's angles are shown: the chosen one, or that of the scene's file.
@@ -264,11 +266,11 @@ impl Graph {
     /// Selects dots, and with them their keys. What was shown stays so, though nothing of it may be
     /// selected any more.
     pub fn select(&mut self, session: &mut Session, dots: BTreeSet<DotId>) {
-        let is_joints = |lane: &Lane| match lane.owner() {
+        let is_shown = |lane: &Lane| match lane.owner() {
             Owner::Joint(joint) => session.selection().contains(&joint),
-            _ => false,
+            owner => session.picked().is_some_and(|picked| picked.owner == owner),
         };
-        let others = self.curves.keys().filter(|lane| !is_joints(lane));
+        let others = self.curves.keys().filter(|lane| !is_shown(lane));
         self.pinned.extend(others.copied());
         let keys: BTreeSet<KeyId> = dots.iter().map(|dot| dot.key()).collect();
         self.dots = dots;
