@@ -82,14 +82,7 @@ impl Viewer {
             return false;
         }
         match command {
-            Command::Mode(_)
-            | Command::ToggleLook
-            | Command::ToggleLeft
-            | Command::ToggleRight
-            | Command::ToggleHelp
-            | Command::Open
-            | Command::OpenFolder
-            | Command::CopyPicture => return false,
+            command if command.is_of_every_mode() => return false,
             Command::SavePicture => self.save_interpolation_picture(ctx),
             Command::ToggleCurves => {
                 let panel = &mut self.interpolation_panel;

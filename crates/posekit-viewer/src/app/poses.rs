@@ -1,6 +1,6 @@
 //! The pose library in the window: where it is kept, its files, its keys.
 
-use egui::{Frame, Margin, Ui};
+use egui::Ui;
 use posekit_formats::poses::{EXTENSION, SavedPose};
 
 use super::Viewer;
@@ -70,19 +70,12 @@ impl Viewer {
         if !self.session.mode().edits() {
             return false;
         }
-        let well = Frame::NONE
-            .fill(crate::theme::Palette::in_ui(ui).sunken)
-            .corner_radius(7.0)
-            .inner_margin(Margin::same(2));
-        well.show(ui, |ui| {
-            ui.horizontal(|ui| {
-                ui.spacing_mut().item_spacing.x = 2.0;
-                for (name, poses) in [("Clips", false), ("Poses", true)] {
-                    if row::segment(ui, name, self.layout.poses == poses).clicked() {
-                        self.layout.poses = poses;
-                    }
+        row::well(ui, |ui| {
+            for (name, poses) in [("Clips", false), ("Poses", true)] {
+                if row::segment(ui, name, self.layout.poses == poses).clicked() {
+                    self.layout.poses = poses;
                 }
-            });
+            }
         });
         ui.add_space(GAP);
         self.layout.poses

@@ -165,6 +165,24 @@ pub enum Command {
     SaveSceneAs,
 }
 
+impl Command {
+    /// Whether it means the same on the stage and in the labs.
+    #[must_use]
+    pub const fn is_of_every_mode(self) -> bool {
+        matches!(
+            self,
+            Self::Mode(_)
+                | Self::ToggleLook
+                | Self::ToggleLeft
+                | Self::ToggleRight
+                | Self::ToggleHelp
+                | Self::Open
+                | Self::OpenFolder
+                | Self::CopyPicture
+        )
+    }
+}
+
 /// A group of keys in the list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Group {

@@ -2,8 +2,9 @@
 
 use egui::{Align, Color32, Layout, Rect, Response, RichText, Sense, Ui, Vec2, vec2};
 
-use super::Asked;
+use super::{Asked, tip};
 use crate::command::Command;
+use crate::icons::{Icon, sized_icon};
 use crate::theme::{GAP, Palette};
 
 /// A heading over a part of a panel, with room for buttons at its right.
@@ -79,24 +80,69 @@ pub fn segments(
     options: &[(Command, &str, String)],
     asked: &mut Asked,
 ) {
-    let palette = Palette::in_ui(ui);
+    well(ui, |ui| {
+        for (command, name, says) in options {
+            let segment = segment(ui, name, *command == chosen);
+            if segment.on_hover_text(says).clicked() {
+                asked.command(*command);
+            }
+        }
+    });
+}
+
+/// The well that segments lie in.
+pub fn well(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
     let well = egui::Frame::NONE
-        .fill(palette.sunken)
+        .fill(Palette::in_ui(ui).sunken)
         .corner_radius(7.0)
         .inner_margin(egui::Margin::same(2));
     well.show(ui, |ui| {
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 2.0;
-            for (command, name, says) in options {
-                if segment(ui, name, *command == chosen)
-                    .on_hover_text(says)
-                    .clicked()
-                {
-                    asked.command(*command);
-                }
-            }
+            contents(ui);
         });
     });
+}
+
+/// A step that can be undone or done again: whether there is one, and its name where it has one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// There is none.
+    None,
+    /// There is one.
+    Unnamed,
+    /// There is one of this name.
+    Named(String),
+}
+
+impl From<bool> for Step {
+    fn from(is_there: bool) -> Self {
+        if is_there { Self::Unnamed } else { Self::None }
+    }
+}
+
+impl From<Option<String>> for Step {
+    fn from(name: Option<String>) -> Self {
+        name.map_or(Self::None, Self::Named)
+    }
+}
+
+/// The buttons of undo and redo.
+pub fn undo_buttons(ui: &mut Ui, (undo, redo): (Step, Step), height: f32, asked: &mut Asked) {
+    for (icon, step, verb, command) in [
+        (Icon::Undo, undo, "Undo", Command::Undo),
+        (Icon::Redo, redo, "Redo", Command::Redo),
+    ] {
+        ui.add_enabled_ui(step != Step::None, |ui| {
+            let says = match &step {
+                Step::Named(name) => tip(&format!("{verb}: {name}"), command),
+                Step::None | Step::Unnamed => tip(verb, command),
+            };
+            if sized_icon(ui, icon, &says, false, vec2(26.0, height)).clicked() {
+                asked.command(command);
+            }
+        });
+    }
 }
 
 /// One of several beside each other.

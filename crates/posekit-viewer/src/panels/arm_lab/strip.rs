@@ -8,7 +8,7 @@ use egui::{
 use super::super::{Asked, row, stay_open, tip};
 use crate::command::Command;
 use crate::gizmo::Tool;
-use crate::icons::{self, Icon, sized_icon};
+use crate::icons::{self, Icon};
 use crate::state::arm::ArmLab;
 use crate::state::arm::bench::Bench;
 use crate::state::arm::mobility::{Hardest, Singularity};
@@ -42,39 +42,12 @@ fn tools(ui: &mut Ui, lab: &mut ArmLab, asked: &mut Asked) {
     card.show(ui, |ui| {
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = GAP;
-            undo_buttons(ui, lab, asked);
+            let (undo, redo) = lab.bench().map_or((false, false), Bench::can_undo_redo);
+            row::undo_buttons(ui, (undo.into(), redo.into()), 26.0, asked);
             tool_choice(ui, lab);
             space_choice(ui, lab);
             snap(ui, lab, asked);
             shown(ui, lab);
-        });
-    });
-}
-
-fn undo_buttons(ui: &mut Ui, lab: &ArmLab, asked: &mut Asked) {
-    let (undo, redo) = lab.bench().map_or((false, false), Bench::can_undo_redo);
-    for (icon, says, command, can) in [
-        (Icon::Undo, "Undo", Command::Undo, undo),
-        (Icon::Redo, "Redo", Command::Redo, redo),
-    ] {
-        ui.add_enabled_ui(can, |ui| {
-            if sized_icon(ui, icon, &tip(says, command), false, vec2(26.0, 26.0)).clicked() {
-                asked.command(command);
-            }
-        });
-    }
-}
-
-fn well(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
-    let palette = Palette::in_ui(ui);
-    let well = Frame::NONE
-        .fill(palette.sunken)
-        .corner_radius(7.0)
-        .inner_margin(Margin::same(2));
-    well.show(ui, |ui| {
-        ui.horizontal(|ui| {
-            ui.spacing_mut().item_spacing.x = 2.0;
-            contents(ui);
         });
     });
 }
@@ -84,7 +57,7 @@ fn tool_choice(ui: &mut Ui, lab: &mut ArmLab) {
         return;
     };
     let mut chosen = None;
-    well(ui, |ui| {
+    row::well(ui, |ui| {
         for (tool, name, says) in [
             (
                 Tool::Move,
@@ -113,7 +86,7 @@ fn space_choice(ui: &mut Ui, lab: &mut ArmLab) {
         return;
     };
     let mut chosen = None;
-    well(ui, |ui| {
+    row::well(ui, |ui| {
         for (space, name, says) in [
             (Space::World, "World", "The gizmo's axes are the world's"),
             (Space::Local, "Tip", "The gizmo's axes are the tip's"),

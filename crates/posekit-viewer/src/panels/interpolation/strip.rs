@@ -5,7 +5,6 @@ use posekit::rotation::Axis;
 
 use super::super::{Asked, row, tip};
 use crate::command::Command;
-use crate::icons::{Icon, sized_icon};
 use crate::state::display::Compare;
 use crate::state::interpolation::{InterpolationLab, Page, Picture};
 use crate::state::mode::{Space, TURN_STEP_DEG};
@@ -32,7 +31,8 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, lab: &mut InterpolationLab, asked: &
                 card(ui, |ui| pictures(ui, lab));
                 if room.width() >= UNDO_ROOM {
                     card(ui, |ui| {
-                        undo_buttons(ui, lab, asked);
+                        let (undo, redo) = lab.can_undo_redo();
+                        row::undo_buttons(ui, (undo.into(), redo.into()), 22.0, asked);
                         if room.width() >= SNAP_ROOM {
                             rings(ui, lab, asked);
                         }
@@ -103,20 +103,6 @@ fn pictures(ui: &mut Ui, lab: &mut InterpolationLab) {
                 lab.set_tip(axis);
             }
         }
-    }
-}
-
-fn undo_buttons(ui: &mut Ui, lab: &InterpolationLab, asked: &mut Asked) {
-    let (undo, redo) = lab.can_undo_redo();
-    for (icon, says, command, can) in [
-        (Icon::Undo, "Undo", Command::Undo, undo),
-        (Icon::Redo, "Redo", Command::Redo, redo),
-    ] {
-        ui.add_enabled_ui(can, |ui| {
-            if sized_icon(ui, icon, &tip(says, command), false, vec2(26.0, 22.0)).clicked() {
-                asked.command(command);
-            }
-        });
     }
 }
 

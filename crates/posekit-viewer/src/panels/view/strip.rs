@@ -5,7 +5,6 @@ use egui::{Align, Layout, Rect, Ui, UiBuilder, pos2, vec2};
 use super::super::{Asked, row, tip};
 use crate::command::Command;
 use crate::gizmo::Tool;
-use crate::icons::{Icon, sized_icon};
 use crate::state::mode::{Mode, Space, TURN_STEP_DEG, move_step};
 use crate::state::session::{Handles, Session};
 use crate::theme::{GAP, Palette};
@@ -39,7 +38,8 @@ fn tools(ui: &mut Ui, width: f32, session: &mut Session, asked: &mut Asked) {
     card.show(ui, |ui| {
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = GAP;
-            undo_buttons(ui, session, asked);
+            let (undo, redo) = session.step_names();
+            row::undo_buttons(ui, (undo.into(), redo.into()), 26.0, asked);
             tool_choice(ui, session, asked);
             if width >= NARROW {
                 spaces(ui, session);
@@ -81,24 +81,6 @@ fn tool_choice(ui: &mut Ui, session: &Session, asked: &mut Asked) {
         (command, name, tip(says, command))
     });
     row::segments(ui, Command::Tool(chosen), &options, asked);
-}
-
-fn undo_buttons(ui: &mut Ui, session: &Session, asked: &mut Asked) {
-    let (undo, redo) = session.step_names();
-    for (icon, name, verb, command) in [
-        (Icon::Undo, undo, "Undo", Command::Undo),
-        (Icon::Redo, redo, "Redo", Command::Redo),
-    ] {
-        ui.add_enabled_ui(name.is_some(), |ui| {
-            let says = match &name {
-                Some(name) => tip(&format!("{verb}: {name}"), command),
-                None => tip(verb, command),
-            };
-            if sized_icon(ui, icon, &says, false, vec2(26.0, 26.0)).clicked() {
-                asked.command(command);
-            }
-        });
-    }
 }
 
 fn spaces(ui: &mut Ui, session: &mut Session) {

@@ -101,7 +101,7 @@ mod tests {
 
     #[test]
     fn paths_go_out_relative_and_come_back() {
-        let folder = Path::new("/home/me/work");
+        let folder = Path::new("/home/me/takes");
         for name in [
             "walk.bvh",
             "takes/walk.bvh",
@@ -119,12 +119,12 @@ mod tests {
         );
         assert_eq!(
             open.skeleton,
-            SkeletonSource::File("/home/me/work/b.bvh".into())
+            SkeletonSource::File("/home/me/takes/b.bvh".into())
         );
         let elsewhere = written(&open, Path::new("/home/me/other"));
         assert_eq!(
             elsewhere.skeleton,
-            SkeletonSource::File("../work/b.bvh".into())
+            SkeletonSource::File("../takes/b.bvh".into())
         );
     }
 }
