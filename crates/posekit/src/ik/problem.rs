@@ -56,8 +56,13 @@ impl StartJoint {
 /// When an iterative solver stops.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StopRule {
-    /// A target counts as reached when its point is this near, in the file's unit.
+    /// A target counts as reached when its point is this near, in the file's unit. Zero asks for every
+    /// iteration that still gains something.
     pub position_tolerance: f64,
+    /// What tells a solver at rest that is stuck from one that has arrived, where `position_tolerance` is
+    /// zero: beyond this distance from its target, in the file's unit, joints are bent or other starts
+    /// tried; within it the pose stays as it is. It ends no iterations.
+    pub rest_tolerance: f64,
     /// A target's orientation counts as reached when it is this near.
     pub orientation_tolerance_rad: f64,
     /// The most iterations.
@@ -133,6 +138,7 @@ impl IkProblem {
             rest_pull: None,
             stop: StopRule {
                 position_tolerance: 1e-4 * reach,
+                rest_tolerance: 1e-4 * reach,
                 orientation_tolerance_rad: 1e-3,
                 max_iterations: 100,
             },

@@ -21,6 +21,9 @@ use crate::skeleton::Skeleton;
 /// How near an end of its range a joint counts as being at it, in radians or length units.
 const AT_LIMIT: f64 = 1e-6;
 
+/// An orientation that is this near has been reached as far as a rest is concerned, whatever the tolerance.
+const REST_RAD: f64 = 1e-6;
+
 /// Which solver, and how it is set.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -55,6 +58,21 @@ pub(crate) struct Progress {
 }
 
 impl Progress {
+    /// Completes the record of an iteration, if there is one, with where it led, and adds it to the trace.
+    pub(crate) fn record(
+        &mut self,
+        linkage: &Linkage,
+        skeleton: &Skeleton,
+        pose: &LocalPose,
+        problem: &IkProblem,
+        record: Option<TraceIteration>,
+    ) {
+        if let (Some(trace), Some(mut record)) = (&mut self.trace, record) {
+            linkage.end_iteration(pose, skeleton, problem, &mut record);
+            trace.iterations.push(record);
+        }
+    }
+
     /// The end of a solver in closed form: chains swivel to their poles, and it rests after its one
     /// iteration. `record` is what was recorded of it, if anything was asked for.
     pub(crate) fn in_closed_form(
@@ -161,13 +179,52 @@ fn report(
 /// Whether every effector is within the tolerances of its target.
 pub(crate) fn is_reached(linkage: &Linkage, problem: &IkProblem) -> bool {
     let stop = &problem.stop;
+    is_within(
+        linkage,
+        problem,
+        stop.position_tolerance,
+        stop.orientation_tolerance_rad,
+    )
+}
+
+/// Whether a solver that rests here is stuck, and did not simply come as near as numbers allow.
+pub(crate) fn is_short(linkage: &Linkage, problem: &IkProblem) -> bool {
+    let stop = &problem.stop;
+    let angle_rad = stop.orientation_tolerance_rad.max(REST_RAD);
+    !is_within(linkage, problem, rest_distance(problem), angle_rad)
+}
+
+/// The distance from which on a solver at rest is stuck.
+pub(crate) fn rest_distance(problem: &IkProblem) -> f64 {
+    if problem.stop.position_tolerance > 0.0 {
+        problem.stop.position_tolerance
+    } else {
+        problem.stop.rest_tolerance
+    }
+}
+
+fn is_within(linkage: &Linkage, problem: &IkProblem, distance: f64, angle_rad: f64) -> bool {
     problem.targets.iter().enumerate().all(|(index, target)| {
         let residual = linkage.residual(index, target);
-        let is_near = target.position_weight == 0.0 || residual.distance <= stop.position_tolerance;
-        let is_aligned = target.orientation_weight == 0.0
-            || residual.angle_rad <= stop.orientation_tolerance_rad;
+        let is_near = target.position_weight == 0.0 || residual.distance <= distance;
+        let is_aligned = target.orientation_weight == 0.0 || residual.angle_rad <= angle_rad;
         is_near && is_aligned
     })
+}
+
+/// By how much all targets are missed: the sum of squares of distances and, where orientations are asked
+/// for, of angles, by weights. A radian counts as many tolerances as it holds.
+pub(crate) fn miss(linkage: &Linkage, problem: &IkProblem) -> f64 {
+    let per_rad = rest_distance(problem) / problem.stop.orientation_tolerance_rad.max(REST_RAD);
+    let targets = problem.targets.iter().enumerate();
+    targets
+        .map(|(index, target)| {
+            let residual = linkage.residual(index, target);
+            let turned = per_rad * residual.angle_rad;
+            target.position_weight * (residual.distance * residual.distance)
+                + target.orientation_weight * (turned * turned)
+        })
+        .sum()
 }
 
 /// How far the target that is farthest out of reach lies beyond what its effector could get to if all

@@ -8,7 +8,8 @@ use crate::skeleton::JointId;
 /// Every iteration of a solver, in order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct IkTrace {
-    /// The iterations.
+    /// The iterations. Where a solver went back at the end to the best pose that it had found, one more
+    /// without updates.
     pub iterations: Vec<TraceIteration>,
 }
 

@@ -147,6 +147,9 @@ impl Linkage {
 
     /// Bends every joint a little, to get out of a pose in which no joint can do anything on its own.
     /// Whether anything moved.
+    ///
+    /// A joint bends across the line to its effector, a hinge about its own axis; whichever way its limits
+    /// leave open.
     pub(crate) fn nudge(&mut self, angle_rad: f64) -> bool {
         let mut has_moved = false;
         for index in 0..self.effectors.len() {
@@ -156,17 +159,17 @@ impl Linkage {
                     continue;
                 }
                 let line = self.effector_position(index) - self.positions[k];
-                let before = self.turns[k];
-                let axis = perpendicular(line);
-                // A hinge bends about its own axis; whichever way is free.
-                for sign in [1.0, -1.0] {
-                    let bent = exp(axis * (sign * angle_rad)) * before;
-                    self.set_turn(k, bent);
-                    if self.turns[k].dot(before).abs() < 1.0 - 1e-9 {
-                        has_moved = true;
-                        break;
-                    }
-                }
+                let across = perpendicular(line);
+                let axes = match self.pivots[k].hinge_axis(self.inner_turn(k)) {
+                    Some(axis) => [axis, axis],
+                    None => [across, across.cross(line).normalize_or_zero()],
+                };
+                let ways = axes.map(|axis| [axis, -axis]);
+                has_moved |= ways.iter().flatten().any(|&axis| {
+                    let before = self.turns[k];
+                    self.set_turn(k, exp(axis * angle_rad) * before);
+                    self.turns[k].dot(before).abs() < 1.0 - 1e-9
+                });
             }
         }
         has_moved

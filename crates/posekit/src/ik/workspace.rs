@@ -1,7 +1,5 @@
 //! Memory that solvers use again from one problem to the next.
 
-use glam::DQuat;
-
 use super::ccd;
 use super::fabrik;
 use super::least_squares;
@@ -14,10 +12,7 @@ use super::trace::MovedJoint;
 #[derive(Clone, Debug, Default)]
 pub struct IkWorkspace {
     pub(super) linkage: Linkage,
-    /// By pivot: what an iteration adds to its turn.
-    pub(super) added: Vec<DQuat>,
-    /// One for each target, in CCD.
-    pub(super) approaches: Vec<ccd::Approach>,
+    pub(super) ccd: ccd::Scratch,
     pub(super) fabrik: fabrik::Scratch,
     pub(super) least_squares: least_squares::Memory,
     pub(super) moved: Vec<MovedJoint>,

@@ -105,6 +105,7 @@ impl SolverArgs {
         }
         Ok(StopRule {
             position_tolerance,
+            rest_tolerance: 1e-4 * reach,
             orientation_tolerance_rad: self.turn_tolerance.to_radians(),
             max_iterations: self.iterations,
         })

@@ -94,6 +94,7 @@ impl StudiedChain {
         let mut problem = self.problem.clone();
         problem.targets[0].position_in_world = place;
         problem.stop.position_tolerance = 0.0;
+        problem.stop.rest_tolerance = self.tolerance;
         problem.stop.max_iterations = iterations;
         problem
     }

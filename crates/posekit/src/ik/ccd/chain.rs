@@ -5,43 +5,112 @@
 
 use glam::{DQuat, DVec3};
 
-use super::{AT_REST, CcdConfig, MOST_NUDGES, NUDGE_RAD, SweepOrder};
-use crate::ik::linkage::Linkage;
+use super::{AT_REST, MOST_NUDGES, NUDGES_RAD, Scratch, SweepOrder};
+use crate::ik::linkage::{Linkage, State};
 use crate::ik::problem::IkProblem;
-use crate::ik::solve::Progress;
+use crate::ik::solve::{Progress, is_short};
 use crate::ik::turn::shortest_turn;
 
 /// Runs the loop on a chain.
 pub(super) fn run(
     linkage: &mut Linkage,
-    added: &mut [DQuat],
+    scratch: &mut Scratch,
     problem: &IkProblem,
-    config: &CcdConfig,
+    order: SweepOrder,
 ) -> Progress {
     let target = problem.targets[0].position_in_world;
     let tolerance_sq = problem.stop.position_tolerance * problem.stop.position_tolerance;
     let mut progress = Progress::default();
-    let mut effector = linkage.effector_position(0);
+    let mut left_sq = linkage.effector_position(0).distance_squared(target);
     let mut nudges = 0;
-    while progress.iterations < problem.stop.max_iterations
-        && effector.distance_squared(target) > tolerance_sq
-    {
-        let largest_sq = match config.order {
-            SweepOrder::TipToBase => tip_to_base(linkage, added, effector, target),
-            SweepOrder::BaseToTip => base_to_tip(linkage, effector, target),
-        };
-        effector = linkage.effector_position(0);
+    scratch.next.store(linkage);
+    while progress.iterations < problem.stop.max_iterations && left_sq > tolerance_sq {
+        // Into other memory than it reads: a sweep that did not come nearer is thus not made.
+        let largest_sq = sweep(
+            linkage,
+            &mut scratch.next,
+            &mut scratch.added,
+            order,
+            target,
+        );
         progress.iterations += 1;
-        if largest_sq <= AT_REST * AT_REST && effector.distance_squared(target) > tolerance_sq {
-            if nudges == MOST_NUDGES || !linkage.nudge(NUDGE_RAD) {
-                progress.is_settled = true;
-                break;
-            }
-            effector = linkage.effector_position(0);
-            nudges += 1;
+        let now_sq = swap(linkage, &mut scratch.next, target);
+        let gains = now_sq < left_sq;
+        if gains {
+            left_sq = now_sq;
+        } else {
+            swap(linkage, &mut scratch.next, target);
         }
+        let is_still = largest_sq <= AT_REST * AT_REST;
+        if (gains && !is_still) || left_sq <= tolerance_sq {
+            continue;
+        }
+        let is_stuck = is_short(linkage, problem);
+        if gains && !is_stuck {
+            continue;
+        }
+        if !is_stuck
+            || nudges == MOST_NUDGES
+            || !escape(linkage, scratch, order, target, &mut left_sq)
+        {
+            progress.is_settled = true;
+            break;
+        }
+        nudges += 1;
     }
     progress
+}
+
+/// Bends a chain that is stuck and sweeps once from there, if that brings it nearer; whether it does.
+fn escape(
+    linkage: &mut Linkage,
+    scratch: &mut Scratch,
+    order: SweepOrder,
+    target: DVec3,
+    left_sq: &mut f64,
+) -> bool {
+    scratch.best.store(linkage);
+    for angle_rad in NUDGES_RAD {
+        if !linkage.nudge(angle_rad) {
+            break;
+        }
+        sweep(
+            linkage,
+            &mut scratch.next,
+            &mut scratch.added,
+            order,
+            target,
+        );
+        let now_sq = swap(linkage, &mut scratch.next, target);
+        if now_sq < *left_sq {
+            *left_sq = now_sq;
+            return true;
+        }
+        linkage.recall(&scratch.best);
+    }
+    false
+}
+
+/// Makes the other state the linkage's; the square of how far the effector is from the target there.
+fn swap(linkage: &mut Linkage, other: &mut State, target: DVec3) -> f64 {
+    core::mem::swap(&mut linkage.turns, &mut other.turns);
+    core::mem::swap(&mut linkage.positions, &mut other.positions);
+    linkage.effector_position(0).distance_squared(target)
+}
+
+/// One pass over all joints, from the linkage's state into `next`; the square of the largest turn.
+fn sweep(
+    linkage: &Linkage,
+    next: &mut State,
+    added: &mut [DQuat],
+    order: SweepOrder,
+    target: DVec3,
+) -> f64 {
+    let effector = linkage.effector_position(0);
+    match order {
+        SweepOrder::TipToBase => tip_to_base(linkage, next, added, effector, target),
+        SweepOrder::BaseToTip => base_to_tip(linkage, next, effector, target),
+    }
 }
 
 /// The turn of a joint and where it brings the effector; `None` where there is no direction.
@@ -53,9 +122,15 @@ fn turn(pivot: DVec3, effector: DVec3, target: DVec3) -> Option<(DQuat, DVec3)> 
     Some((turn, pivot + b * share))
 }
 
-fn tip_to_base(linkage: &mut Linkage, added: &mut [DQuat], effector: DVec3, target: DVec3) -> f64 {
+fn tip_to_base(
+    linkage: &Linkage,
+    next: &mut State,
+    added: &mut [DQuat],
+    effector: DVec3,
+    target: DVec3,
+) -> f64 {
     let count = linkage.pivots.len();
-    let (positions, turns) = (&mut linkage.positions[..count], &mut linkage.turns[..count]);
+    let (positions, turns) = (&linkage.positions[..count], &linkage.turns[..count]);
     let (pivots, added) = (&linkage.pivots[..count], &mut added[..count]);
     let mut effector = effector;
     let mut largest_sq = 0.0_f64;
@@ -69,27 +144,29 @@ fn tip_to_base(linkage: &mut Linkage, added: &mut [DQuat], effector: DVec3, targ
             None => DQuat::IDENTITY,
         };
     }
+    let (positions, turned) = (&mut next.positions[..count], &mut next.turns[..count]);
     let mut carried = DQuat::IDENTITY;
-    let mut position = positions[0];
+    let mut position = linkage.positions[0];
     for k in 0..count {
         positions[k] = position;
         carried *= added[k];
-        turns[k] = carried * turns[k];
+        turned[k] = carried * turns[k];
         if let Some(next) = pivots.get(k + 1) {
-            position += turns[k] * next.offset;
+            position += turned[k] * next.offset;
         }
     }
     largest_sq
 }
 
-fn base_to_tip(linkage: &mut Linkage, effector: DVec3, target: DVec3) -> f64 {
+fn base_to_tip(linkage: &Linkage, next: &mut State, effector: DVec3, target: DVec3) -> f64 {
     let count = linkage.pivots.len();
-    let (positions, turns) = (&mut linkage.positions[..count], &mut linkage.turns[..count]);
+    let turns = &linkage.turns[..count];
     let pivots = &linkage.pivots[..count];
+    let (positions, turned) = (&mut next.positions[..count], &mut next.turns[..count]);
     let mut effector = effector;
     let mut largest_sq = 0.0_f64;
     let mut carried = DQuat::IDENTITY;
-    let mut position = positions[0];
+    let mut position = linkage.positions[0];
     for k in 0..count {
         positions[k] = position;
         if let Some((turn, moved)) = turn(position, effector, target) {
@@ -97,9 +174,9 @@ fn base_to_tip(linkage: &mut Linkage, effector: DVec3, target: DVec3) -> f64 {
             largest_sq = largest_sq.max(4.0 * turn.xyz().length_squared());
             carried = turn * carried;
         }
-        turns[k] = carried * turns[k];
+        turned[k] = carried * turns[k];
         if let Some(next) = pivots.get(k + 1) {
-            position += turns[k] * next.offset;
+            position += turned[k] * next.offset;
         }
     }
     largest_sq

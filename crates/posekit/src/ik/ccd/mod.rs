@@ -15,10 +15,13 @@
 //! the rest of the chain brings it to its place. A floating root is carried by the mean of what is missing before each sweep. Where the loop stands still with the target straight along
 //! a stretched chain, which no published form gets out of, every joint is bent a little, once or twice.
 //!
-//! **Guarantees and degenerate inputs.** A target at a joint, or an effector at a joint, has no direction
+//! **Guarantees and degenerate inputs.** Where positions alone are asked for, with limits or without, the sum of
+//! squared distances never grows, from update to update and from iteration to iteration; with poles, a pull or
+//! orientations the best of all iterations is kept, so that more iterations never leave more. A chain is bent only
+//! where it stands still farther from its target than [`StopRule`](crate::ik::StopRule) allows a chain at rest,
+//! and only if that brings it nearer. A target at a joint, or an effector at a joint, has no direction
 //! from it: that joint stays. Vectors opposite to each other are half a turn apart about an axis that is
-//! perpendicular to a and chosen by a's smallest coordinate. All output is finite. Without limits, poles and
-//! orientations the sum of squared distances never grows, from update to update.
+//! perpendicular to a and chosen by a's smallest coordinate. All output is finite.
 //!
 //! **Cost.** One square root of each pair of vectors, one to normalise, and two quaternion products for
 //! every joint and iteration: the positions of all joints are computed once per iteration, not once per
@@ -29,10 +32,10 @@ mod chain;
 use glam::{DQuat, DVec3};
 
 use crate::ik::limit::JointLimit;
-use crate::ik::linkage::{Goal, Linkage, NONE};
-use crate::ik::problem::{IkProblem, TraceDetail};
+use crate::ik::linkage::{Goal, Linkage, NONE, State};
+use crate::ik::problem::{Base, IkProblem, TraceDetail};
 use crate::ik::pull::Pull;
-use crate::ik::solve::{Progress, is_reached};
+use crate::ik::solve::{Progress, is_reached, is_short, miss};
 use crate::ik::trace::{IkTrace, TraceIteration, TraceUpdate};
 use crate::ik::turn::{perpendicular, shortened, shortest_turn, swivel};
 use crate::ik::workspace::IkWorkspace;
@@ -77,11 +80,33 @@ const AT_REST: f64 = 1e-10;
 const SMALLEST: f64 = 1e-30;
 
 /// How often a chain is bent that stands still short of its target.
-const MOST_NUDGES: u32 = 2;
+const MOST_NUDGES: u32 = 8;
 
-/// By how much each joint of it is bent: enough to get away from the singular pose in one sweep, too
-/// little to be seen in the result.
-const NUDGE_RAD: f64 = 0.05;
+/// By how much each joint of it is bent, in this order until a sweep from there comes nearer than the chain
+/// stood: enough to get away from a singular pose, little enough not to be seen in the result, at first.
+const NUDGES_RAD: [f64; 4] = [0.05, 0.01, 0.25, 1.0];
+
+/// Memory that is used again.
+#[derive(Clone, Debug, Default)]
+pub(in crate::ik) struct Scratch {
+    /// By pivot: what an iteration adds to its turn.
+    added: Vec<DQuat>,
+    /// One for each target.
+    approaches: Vec<Approach>,
+    /// The best pose so far.
+    best: State,
+    /// Where a sweep leads.
+    next: State,
+}
+
+/// What is solved.
+struct Figure<'a> {
+    skeleton: &'a Skeleton,
+    pose: &'a LocalPose,
+    problem: &'a IkProblem,
+    config: &'a CcdConfig,
+    pull: Option<Pull<'a>>,
+}
 
 /// Runs CCD on the linkage of the workspace.
 pub(crate) fn run(
@@ -91,55 +116,144 @@ pub(crate) fn run(
     config: &CcdConfig,
     workspace: &mut IkWorkspace,
 ) -> Progress {
+    let figure = Figure {
+        skeleton,
+        pose,
+        problem,
+        config,
+        pull: Pull::new(skeleton, pose, problem),
+    };
+    let IkWorkspace {
+        linkage,
+        ccd: scratch,
+        ..
+    } = workspace;
+    scratch.added.clear();
+    scratch.added.resize(linkage.pivots.len(), DQuat::IDENTITY);
+    linkage.enforce_limits();
+    let is_plain = figure.pull.is_none()
+        && problem.trace == TraceDetail::None
+        && config.max_step_rad.is_infinite();
+    if is_plain && linkage.is_free_chain(problem) {
+        return chain::run(linkage, scratch, problem, config.order);
+    }
+    run_figure(&figure, linkage, scratch)
+}
+
+impl Figure<'_> {
+    /// Whether no update can lead away from the targets: nothing but positions is asked for.
+    fn descends(&self) -> bool {
+        let targets = &self.problem.targets;
+        self.pull.is_none()
+            && self.problem.poles.is_empty()
+            && targets.iter().all(|one| one.orientation_in_world.is_none())
+    }
+}
+
+fn run_figure(figure: &Figure<'_>, linkage: &mut Linkage, scratch: &mut Scratch) -> Progress {
+    let problem = figure.problem;
     let mut progress = Progress {
         trace: (problem.trace == TraceDetail::Updates).then(IkTrace::default),
         ..Progress::default()
     };
-    let IkWorkspace {
-        linkage,
-        added,
-        approaches,
-        ..
-    } = workspace;
-    added.clear();
-    added.resize(linkage.pivots.len(), DQuat::IDENTITY);
-    linkage.enforce_limits();
-    let pull = Pull::new(skeleton, pose, problem);
-    let is_plain = pull.is_none() && progress.trace.is_none() && config.max_step_rad.is_infinite();
-    if is_plain && linkage.is_free_chain(problem) {
-        return chain::run(linkage, added, problem, config);
-    }
+    let descends = figure.descends();
     let mut nudges = 0;
+    let mut best = miss(linkage, problem);
+    scratch.best.store(linkage);
     while progress.iterations < problem.stop.max_iterations && !is_reached(linkage, problem) {
         let mut record = progress.trace.is_some().then(TraceIteration::default);
-        if let Some(pull) = &pull {
+        if let Some(pull) = &figure.pull {
             pull.draw(linkage, progress.iterations);
         }
-        let mut sweep = Sweep {
-            linkage,
-            added,
-            approaches,
-            problem,
-            config,
-            largest_sq: 0.0,
-        };
-        sweep.run(pose, record.as_mut());
-        let largest_sq = sweep.largest_sq;
-        swivel(linkage, problem);
+        let is_still = sweep(figure, linkage, scratch, record.as_mut()) <= AT_REST;
         progress.iterations += 1;
-        if let (Some(trace), Some(mut record)) = (&mut progress.trace, record) {
-            linkage.end_iteration(pose, skeleton, problem, &mut record);
-            trace.iterations.push(record);
+        let now = miss(linkage, problem);
+        let gains = now < best;
+        if gains {
+            best = now;
+            scratch.best.store(linkage);
+        } else if descends {
+            // By rounding: it has come as near as numbers allow, or is stuck.
+            linkage.recall(&scratch.best);
+            record = record.map(|_| TraceIteration::default());
         }
-        if largest_sq <= AT_REST * AT_REST {
-            if nudges == MOST_NUDGES || is_reached(linkage, problem) || !linkage.nudge(NUDGE_RAD) {
-                progress.is_settled = true;
-                break;
-            }
+        let is_stuck = is_short(linkage, problem);
+        let is_at_rest = if descends {
+            !gains || (is_still && is_stuck)
+        } else {
+            is_still && (!gains || is_stuck)
+        };
+        if is_at_rest && !is_reached(linkage, problem) {
+            progress.is_settled = nudges == MOST_NUDGES
+                || !is_stuck
+                || !escape(figure, linkage, scratch, &mut best, record.as_mut());
             nudges += 1;
         }
+        progress.record(linkage, figure.skeleton, figure.pose, problem, record);
+        if progress.is_settled {
+            break;
+        }
+    }
+    if !is_reached(linkage, problem) && miss(linkage, problem) > best {
+        linkage.recall(&scratch.best);
+        let record = progress.trace.is_some().then(TraceIteration::default);
+        progress.record(linkage, figure.skeleton, figure.pose, problem, record);
     }
     progress
+}
+
+/// Bends a chain that is stuck and sweeps once from there; whether it is worth going on from where that led.
+fn escape(
+    figure: &Figure<'_>,
+    linkage: &mut Linkage,
+    scratch: &mut Scratch,
+    best: &mut f64,
+    mut record: Option<&mut TraceIteration>,
+) -> bool {
+    for angle_rad in NUDGES_RAD {
+        if !linkage.nudge(angle_rad) {
+            return false;
+        }
+        if let Some(record) = &mut record {
+            record.updates.clear();
+        }
+        sweep(figure, linkage, scratch, record.as_deref_mut());
+        let now = miss(linkage, figure.problem);
+        if now < *best {
+            *best = now;
+            scratch.best.store(linkage);
+            return true;
+        }
+        if !figure.descends() {
+            return true;
+        }
+        linkage.recall(&scratch.best);
+    }
+    if let Some(record) = record {
+        record.updates.clear();
+    }
+    false
+}
+
+/// One pass over all joints; the largest turn, in radians, or slide.
+fn sweep(
+    figure: &Figure<'_>,
+    linkage: &mut Linkage,
+    scratch: &mut Scratch,
+    record: Option<&mut TraceIteration>,
+) -> f64 {
+    let mut sweep = Sweep {
+        linkage,
+        added: &mut scratch.added,
+        approaches: &mut scratch.approaches,
+        problem: figure.problem,
+        config: figure.config,
+        largest_sq: 0.0,
+    };
+    sweep.run(figure.pose, record);
+    let largest = sweep.largest_sq.sqrt();
+    swivel(linkage, figure.problem);
+    largest
 }
 
 /// One effector on its way to its target during a sweep.
@@ -183,14 +297,28 @@ impl Sweep<'_> {
             if !tip_first {
                 // The joints beyond have to be in place before their turn comes.
                 self.carry();
+                if self.linkage.pivots[k].is_afloat {
+                    self.float();
+                }
             }
         }
         if tip_first {
             self.carry();
+            self.float();
         }
         for (index, target) in self.problem.targets.iter().enumerate() {
             if self.approaches[index].goal.is_oriented() {
                 self.linkage.orient(index, target);
+            }
+        }
+    }
+
+    /// Carries roots that float to where their turn was meant for.
+    fn float(&mut self) {
+        if self.problem.base == Base::Free {
+            self.linkage.float(self.problem);
+            for (index, approach) in self.approaches.iter_mut().enumerate() {
+                approach.at = self.linkage.goal_point(index, approach.goal);
             }
         }
     }
@@ -248,6 +376,9 @@ impl Sweep<'_> {
             return;
         };
         let turn = self.bounded(k, turn);
+        if self.leads_away(k, pivot, turn) {
+            return;
+        }
         self.added[k] = turn;
         self.largest_sq = self.largest_sq.max(4.0 * turn.xyz().length_squared());
         let before = record.is_some().then(|| self.first_moved());
@@ -336,6 +467,28 @@ impl Sweep<'_> {
         let now = self.linkage.turns[k];
         // Made unit: a length that is not 1 would double its error with every iteration.
         (self.linkage.limited_turn(k, turn * now) * now.conjugate()).normalize()
+    }
+
+    /// Whether a turn that the limits of a ball joint changed is worse than none: the nearest rotation within
+    /// them is nearest by angle, not for the effectors.
+    fn leads_away(&self, k: usize, pivot: DVec3, turn: DQuat) -> bool {
+        let joint = &self.linkage.pivots[k];
+        if !matches!(
+            joint.limit,
+            JointLimit::Euler { .. } | JointLimit::Cone { .. }
+        ) || joint.is_afloat
+        {
+            return false;
+        }
+        let moved = self.approaches.iter().filter(|one| one.is_moved);
+        let gain: f64 = moved
+            .map(|one| {
+                let after = pivot + turn * (one.at - pivot);
+                let missed = one.at.distance_squared(one.to) - after.distance_squared(one.to);
+                one.weight * missed
+            })
+            .sum();
+        gain < 0.0
     }
 
     /// Slides a joint by the mean of what is missing along its axis.

@@ -5,12 +5,16 @@ use glam::{DQuat, DVec3};
 use super::points::at_length;
 use super::{Figure, Scratch};
 use crate::ik::linkage::{Linkage, NONE};
-use crate::ik::solve::Progress;
+use crate::ik::solve::{Progress, rest_distance};
 use crate::ik::trace::TraceIteration;
-use crate::ik::turn::shortest_turn;
+use crate::ik::turn::{perpendicular, shortest_turn};
 
-/// By how much the points of a chain are bent that stands still, as a share of its reach.
-const NUDGE_SHARE: f64 = 0.01;
+/// By how much the points of a chain are bent that stands still, as a share of its reach: in this order until
+/// an iteration from there comes nearer than the chain stood.
+const NUDGE_SHARES: [f64; 3] = [0.01, 0.002, 0.1];
+
+/// How often it is bent.
+const MOST_NUDGES: u32 = 8;
 
 /// Runs FABRIK on the chain.
 pub(super) fn run(
@@ -20,7 +24,10 @@ pub(super) fn run(
     mut progress: Progress,
 ) -> Progress {
     let Scratch {
-        points, lengths, ..
+        points,
+        spare,
+        lengths,
+        ..
     } = scratch;
     points.clear();
     points.extend_from_slice(&linkage.positions);
@@ -35,7 +42,7 @@ pub(super) fn run(
     let target = figure.problem.targets[0].position_in_world;
     let mut reach = Reach::new(points, lengths, target, figure);
     while !reach.is_over(&progress) {
-        let is_settled = reach.iterate(points, lengths);
+        let is_settled = reach.iterate(points, spare, lengths);
         progress.iterations += 1;
         if let Some(trace) = &mut progress.trace {
             let mut record = TraceIteration::default();
@@ -61,6 +68,8 @@ struct Reach {
     /// Length of the stretched chain.
     length: f64,
     tolerance_sq: f64,
+    /// The square of the distance beyond which a chain at rest is stuck.
+    stuck_sq: f64,
     most: u32,
     /// An improvement by less than this is none.
     rest: f64,
@@ -77,6 +86,7 @@ impl Reach {
             target,
             length: lengths.iter().sum(),
             tolerance_sq: stop.position_tolerance * stop.position_tolerance,
+            stuck_sq: rest_distance(figure.problem) * rest_distance(figure.problem),
             most: stop.max_iterations,
             rest: figure.config.rest_share * stop.position_tolerance,
             left_sq: points[points.len() - 1].distance_squared(target),
@@ -89,8 +99,13 @@ impl Reach {
         self.left_sq <= self.tolerance_sq || progress.iterations >= self.most
     }
 
-    /// One pass inward and one outward. Whether the points have come to rest.
-    fn iterate(&mut self, points: &mut [DVec3], lengths: &[f64]) -> bool {
+    /// One pass inward and one outward, if that comes nearer. Whether the points have come to rest.
+    fn iterate(
+        &mut self,
+        points: &mut Vec<DVec3>,
+        spare: &mut [Vec<DVec3>; 2],
+        lengths: &[f64],
+    ) -> bool {
         let last = points.len() - 1;
         let to_target = self.target - self.base;
         if to_target.length_squared() >= self.length * self.length {
@@ -101,27 +116,62 @@ impl Reach {
             self.left_sq = points[last].distance_squared(self.target);
             return self.left_sq > self.tolerance_sq;
         }
-        points[last] = self.target;
-        for i in (0..last).rev() {
-            points[i] = points[i + 1] + at_length(points[i] - points[i + 1], lengths[i]);
-        }
-        points[0] = self.base;
-        for i in 0..last {
-            points[i + 1] = points[i] + at_length(points[i + 1] - points[i], lengths[i]);
-        }
-        let now_sq = points[last].distance_squared(self.target);
+        let now_sq = self.pass(points, &mut spare[0], lengths);
         let has_rested = self.left_sq.sqrt() - now_sq.sqrt() <= self.rest;
+        let gains = now_sq < self.left_sq;
+        if gains {
+            core::mem::swap(points, &mut spare[0]);
+            self.left_sq = now_sq;
+        }
         self.at_rest = if has_rested { self.at_rest + 1 } else { 0 };
-        self.left_sq = now_sq;
-        if self.at_rest < 3 || now_sq <= self.tolerance_sq {
+        if self.left_sq <= self.tolerance_sq || (gains && self.at_rest < 3) {
             return false;
         }
-        if self.nudges == 2 {
+        if self.left_sq <= self.stuck_sq {
+            return !gains;
+        }
+        if self.nudges == MOST_NUDGES {
             return true;
         }
         self.nudges += 1;
         self.at_rest = 0;
-        nudge(points, self.length, to_target);
+        !self.escape(points, spare, lengths)
+    }
+
+    /// Both passes, from the points into other memory; the square of what is left there.
+    fn pass(&self, points: &[DVec3], next: &mut Vec<DVec3>, lengths: &[f64]) -> f64 {
+        let last = points.len() - 1;
+        next.resize(points.len(), DVec3::ZERO);
+        next[last] = self.target;
+        for i in (0..last).rev() {
+            next[i] = next[i + 1] + at_length(points[i] - next[i + 1], lengths[i]);
+        }
+        next[0] = self.base;
+        for i in 0..last {
+            next[i + 1] = next[i] + at_length(next[i + 1] - next[i], lengths[i]);
+        }
+        next[last].distance_squared(self.target)
+    }
+
+    /// Bends a chain that is stuck and iterates once from there, if that brings it nearer; whether it does.
+    fn escape(
+        &mut self,
+        points: &mut Vec<DVec3>,
+        [next, bent]: &mut [Vec<DVec3>; 2],
+        lengths: &[f64],
+    ) -> bool {
+        let line = self.target - self.base;
+        for share in NUDGE_SHARES {
+            let side = perpendicular(line) * (share * self.length);
+            bent.clone_from(points);
+            nudge(bent, side);
+            let now_sq = self.pass(bent, next, lengths);
+            if now_sq < self.left_sq {
+                self.left_sq = now_sq;
+                core::mem::swap(points, next);
+                return true;
+            }
+        }
         false
     }
 }
@@ -153,9 +203,8 @@ fn record_turns(
     }
 }
 
-/// Moves inner points to the side of the line, one way and the other in turn.
-fn nudge(points: &mut [DVec3], reach: f64, line: DVec3) {
-    let side = crate::ik::turn::perpendicular(line) * (NUDGE_SHARE * reach);
+/// Moves inner points to the side, one way and the other in turn.
+fn nudge(points: &mut [DVec3], side: DVec3) {
     let last = points.len() - 1;
     for (i, point) in points[1..last].iter_mut().enumerate() {
         *point += if i % 2 == 0 { side } else { -side };

@@ -17,9 +17,11 @@
 //! brings its next point in place: there is no twist that was not there before.
 //!
 //! **Guarantees and degenerate inputs.** A single chain without limits is stretched straight to a target
-//! out of reach in one step. With limits or several targets a pass may lead away from the targets: the best
-//! of all iterations is kept. Where nothing moves short of the target (a target straight along the chain)
-//! every joint is bent a little, once or twice. Points that coincide stay together.
+//! out of reach in one step; within reach no iteration leads away from the target, since a point moves no
+//! farther in a pass than the one before it did. With limits or several targets a pass may lead away: the best
+//! of all iterations is kept, so that more of them never leave more. Where nothing moves short of the target (a
+//! target straight along the chain) every joint is bent a little, now and again; never where the chain has
+//! arrived. Points that coincide stay together.
 //!
 //! **Cost.** A square root and a division for each bone and pass; with limits, the recovery of a rotation as
 //! well.

@@ -5,9 +5,9 @@ use glam::{DMat3, DQuat, DVec3};
 use super::Figure;
 use super::points::at_length;
 use crate::ik::limit::JointLimit;
-use crate::ik::linkage::{Linkage, NONE};
+use crate::ik::linkage::{Linkage, NONE, State};
 use crate::ik::problem::IkProblem;
-use crate::ik::solve::{Progress, is_reached};
+use crate::ik::solve::{Progress, is_reached, is_short, miss};
 use crate::ik::trace::{TraceIteration, TraceUpdate};
 use crate::ik::turn::{shortened, shortest_turn, swivel};
 use crate::rotation::{log, matrix_from_quat, nearest_rotation, quat_from_matrix};
@@ -19,11 +19,16 @@ const KEEP_SHARE: f64 = 1e-3;
 /// By how much joints are bent when all stands still.
 const NUDGE_RAD: f64 = 0.05;
 
+/// How often they are.
+const MOST_NUDGES: u32 = 2;
+
 /// Memory that is used again.
 #[derive(Clone, Debug, Default)]
 pub(in crate::ik) struct Scratch {
     /// Points of a simple chain.
     pub(super) points: Vec<DVec3>,
+    /// Where an iteration leads them, and where they are bent.
+    pub(super) spare: [Vec<DVec3>; 2],
     /// Lengths of its bones.
     pub(super) lengths: Vec<f64>,
     /// By pivot: sum of the places that what lies beyond asks for, and of their weights.
@@ -35,9 +40,7 @@ pub(in crate::ik) struct Scratch {
     /// By pivot: its turn before the iteration.
     before: Vec<DQuat>,
     /// The best pose so far.
-    best_turns: Vec<DQuat>,
-    best_slides: Vec<f64>,
-    best_shifts: Vec<DVec3>,
+    best: State,
 }
 
 /// Runs FABRIK on a tree.
@@ -50,8 +53,8 @@ pub(super) fn run(
     let problem = figure.problem;
     linkage.enforce_limits();
     weigh(linkage, problem, scratch);
-    let mut best = cost(linkage, problem);
-    keep(linkage, scratch);
+    let mut best = miss(linkage, problem);
+    scratch.best.store(linkage);
     let (mut at_rest, mut nudges) = (0, 0);
     let mut last = best;
     let rest = figure.config.rest_share * problem.stop.position_tolerance.max(f64::MIN_POSITIVE);
@@ -68,23 +71,19 @@ pub(super) fn run(
         slide(linkage, problem);
         swivel(linkage, problem);
         progress.iterations += 1;
-        if let (Some(trace), Some(mut record)) = (&mut progress.trace, record) {
-            linkage.end_iteration(figure.pose, figure.skeleton, problem, &mut record);
-            trace.iterations.push(record);
-        }
-        let now = cost(linkage, problem);
-        if now < best {
+        progress.record(linkage, figure.skeleton, figure.pose, problem, record);
+        let now = miss(linkage, problem);
+        let gains = now < best;
+        if gains {
             best = now;
-            keep(linkage, scratch);
+            scratch.best.store(linkage);
         }
-        at_rest = if (last - now).abs() <= rest {
-            at_rest + 1
-        } else {
-            0
-        };
+        let has_rested = (last.sqrt() - now.sqrt()).abs() <= rest;
+        at_rest = if has_rested { at_rest + 1 } else { 0 };
         last = now;
-        if at_rest == 3 {
-            if nudges == 2 || !linkage.nudge(NUDGE_RAD) {
+        let is_stuck = is_short(linkage, problem);
+        if at_rest >= 3 && (is_stuck || !gains) {
+            if !is_stuck || nudges == MOST_NUDGES || !linkage.nudge(NUDGE_RAD) {
                 progress.is_settled = true;
                 break;
             }
@@ -92,38 +91,12 @@ pub(super) fn run(
             at_rest = 0;
         }
     }
-    if cost(linkage, problem) > best {
-        restore(linkage, scratch);
+    if !is_reached(linkage, problem) && miss(linkage, problem) > best {
+        linkage.recall(&scratch.best);
+        let record = progress.trace.is_some().then(TraceIteration::default);
+        progress.record(linkage, figure.skeleton, figure.pose, problem, record);
     }
     progress
-}
-
-/// The weighted miss of all targets, an orientation counted at the length of a radian's arc of unit radius
-/// times the tolerances' ratio.
-fn cost(linkage: &Linkage, problem: &IkProblem) -> f64 {
-    let stop = &problem.stop;
-    let per_rad = stop.position_tolerance / stop.orientation_tolerance_rad.max(1e-12);
-    let targets = problem.targets.iter().enumerate();
-    targets
-        .map(|(index, target)| {
-            let residual = linkage.residual(index, target);
-            target.position_weight * residual.distance
-                + target.orientation_weight * per_rad * residual.angle_rad
-        })
-        .sum()
-}
-
-fn keep(linkage: &Linkage, scratch: &mut Scratch) {
-    scratch.best_turns.clone_from(&linkage.turns);
-    scratch.best_slides.clone_from(&linkage.slides);
-    scratch.best_shifts.clone_from(&linkage.shifts);
-}
-
-fn restore(linkage: &mut Linkage, scratch: &Scratch) {
-    linkage.turns.clone_from(&scratch.best_turns);
-    linkage.slides.clone_from(&scratch.best_slides);
-    linkage.shifts.clone_from(&scratch.best_shifts);
-    linkage.place();
 }
 
 /// Sums the weights of the targets beyond each pivot.

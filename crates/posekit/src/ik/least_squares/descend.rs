@@ -3,7 +3,6 @@
 use core::f64::consts::FRAC_PI_4;
 
 use super::Iterations;
-use super::levenberg::CONVERGED;
 use super::model::{Model, Taken};
 use super::svd::Svd;
 use super::system::System;
@@ -205,7 +204,8 @@ fn clamp_residual(system: &mut System, most: f64) {
     }
 }
 
-/// Takes steps until all targets are reached, nothing moves, nothing gets better, or `most` are taken.
+/// Takes steps until all targets are reached, nothing moves, nothing gets better, or `most` are taken; the best
+/// state that they led to is left.
 fn iterate<M: Model>(
     model: &mut M,
     system: &mut System,
@@ -215,9 +215,11 @@ fn iterate<M: Model>(
     let mut made = Iterations::default();
     let (mut nudges, mut without_gain) = (0, 0);
     let mut best = f64::INFINITY;
+    let mut least = Least::default();
     while made.count < most && !model.is_reached() {
         model.find_residual(system);
         let cost = system.cost();
+        least.note(model, cost);
         // A millionth part better is better.
         if cost < best * (1.0 - 1e-6) {
             best = cost;
@@ -229,7 +231,7 @@ fn iterate<M: Model>(
         let moves = solve(system) && system.largest_step() > AT_REST;
         if !moves || without_gain > MOST_WITHOUT_GAIN {
             model.save();
-            if cost <= CONVERGED || nudges == MOST_NUDGES || !model.nudge() {
+            if !model.is_short() || nudges == MOST_NUDGES || !model.nudge() {
                 made.is_settled = true;
                 break;
             }
@@ -244,7 +246,51 @@ fn iterate<M: Model>(
         model.record(Taken::Step);
         made.count += 1;
     }
+    if !model.is_reached() {
+        model.find_residual(system);
+        least.leave(model, system.cost());
+    }
     made
+}
+
+/// The least cost so far and the state that has it, which is copied only when a step leads away from it.
+#[derive(Debug)]
+struct Least {
+    cost: f64,
+    is_kept: bool,
+}
+
+impl Default for Least {
+    fn default() -> Self {
+        Self {
+            cost: f64::INFINITY,
+            is_kept: false,
+        }
+    }
+}
+
+impl Least {
+    /// Notes the cost of the present state; the one before it is the model's saved one.
+    fn note<M: Model>(&mut self, model: &mut M, cost: f64) {
+        if cost < self.cost {
+            *self = Self {
+                cost,
+                is_kept: false,
+            };
+        } else if !self.is_kept && self.cost.is_finite() {
+            model.keep_saved();
+            self.is_kept = true;
+        }
+    }
+
+    /// Goes back to the best state if the present one, of this cost, is worse.
+    fn leave<M: Model>(mut self, model: &mut M, cost: f64) {
+        self.note(model, cost);
+        if self.is_kept && cost > self.cost {
+            model.restore_kept();
+            model.record(Taken::Nothing);
+        }
+    }
 }
 
 /// The step of Buss and Kim (2005): along each right singular vector as far as their bound `gamma`, which

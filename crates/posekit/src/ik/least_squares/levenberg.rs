@@ -67,9 +67,6 @@ impl Patience {
     }
 }
 
-/// A residual whose square is less than this is gone but for rounding, whatever the tolerances ask for.
-pub(super) const CONVERGED: f64 = 1e-20;
-
 /// How often a figure that stands still short of its targets is bent.
 const MOST_NUDGES: u32 = 2;
 
@@ -112,13 +109,14 @@ pub(crate) fn minimize<M: Model>(
     let mut made = Iterations::default();
     let mut damping = Damping::of(config.damping);
     let (mut nudges, mut slow) = (0, 0);
+    let mut least = f64::INFINITY;
     model.find_residual(system);
     let mut cost = system.cost();
     while made.count < patience.most && !model.is_reached() {
         // After a step that was taken back, too: limits that it met are bounds of the next one.
         model.linearize(system);
-        let least = LEAST_DAMPING * system.trace() + f64::MIN_POSITIVE;
-        let is_solved = system.solve(damping.factor * cost + least);
+        let floor = LEAST_DAMPING * system.trace() + f64::MIN_POSITIVE;
+        let is_solved = system.solve(damping.factor * cost + floor);
         system.shorten_step(config.max_step);
         let length = if is_solved {
             system.largest_step()
@@ -130,9 +128,17 @@ pub(crate) fn minimize<M: Model>(
         let is_stuck = is_solved && !moves || damping.factor > MOST_DAMPING;
         if is_stuck {
             made.is_settled = true;
-            let is_done = cost <= CONVERGED || nudges == MOST_NUDGES;
-            if is_done || !try_nudge(model, system, &mut cost) {
+            if !model.is_short() || nudges == MOST_NUDGES {
                 break;
+            }
+            let before = cost;
+            if !try_nudge(model, system, &mut cost) {
+                break;
+            }
+            // All other steps lead downhill: the best state so far is one that was bent, or the last.
+            if before < least {
+                least = before;
+                model.keep_saved();
             }
             nudges += 1;
             made.count += 1;
@@ -169,6 +175,10 @@ pub(crate) fn minimize<M: Model>(
             system.residual = linear;
             damping.grow();
         }
+    }
+    if cost > least && !model.is_reached() {
+        model.restore_kept();
+        model.record(Taken::Nothing);
     }
     made
 }

@@ -32,6 +32,15 @@ pub(crate) trait Model {
     /// Whether every target is reached within the tolerances.
     fn is_reached(&self) -> bool;
 
+    /// Whether a state of rest is farther from the targets than one that has arrived may be.
+    fn is_short(&self) -> bool;
+
+    /// Keeps the state that was remembered, to go back to it at the end.
+    fn keep_saved(&mut self);
+
+    /// Goes back to the state that was kept.
+    fn restore_kept(&mut self);
+
     /// Leaves a state in which every small step is useless, though the targets may be in reach; whether it
     /// could.
     fn nudge(&mut self) -> bool;

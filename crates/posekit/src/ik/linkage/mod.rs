@@ -11,6 +11,7 @@
 mod build;
 mod goal;
 mod motion;
+mod state;
 
 use glam::{DQuat, DVec3};
 
@@ -19,6 +20,7 @@ use crate::skeleton::JointId;
 
 pub(crate) use build::build;
 pub(crate) use goal::Goal;
+pub(crate) use state::State;
 
 /// No pivot: a link that does not move.
 pub(crate) const NONE: u32 = u32::MAX;

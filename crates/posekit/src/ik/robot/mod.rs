@@ -53,6 +53,7 @@ impl Default for RobotConfig {
         Self {
             stop: StopRule {
                 position_tolerance: 1e-6,
+                rest_tolerance: 1e-6,
                 orientation_tolerance_rad: 1e-6,
                 max_iterations: 40,
             },

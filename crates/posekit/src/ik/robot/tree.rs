@@ -505,6 +505,16 @@ impl Model for RobotModel<'_> {
         })
     }
 
+    fn is_short(&self) -> bool {
+        !self.is_reached()
+    }
+
+    fn keep_saved(&mut self) {
+        // Nothing leads uphill without a nudge.
+    }
+
+    fn restore_kept(&mut self) {}
+
     fn nudge(&mut self) -> bool {
         // Another attempt is the better way out.
         false

@@ -390,7 +390,7 @@ fn a_pole_draws_the_elbow_to_its_side_and_a_pull_keeps_the_pose() {
 }
 
 /// A table of limits of all kinds.
-fn any_limits(joint_count: usize) -> impl Strategy<Value = JointLimits> {
+pub(super) fn any_limits(joint_count: usize) -> impl Strategy<Value = JointLimits> {
     let span =
         (-2.0..0.5_f64, 0.0..2.0_f64).prop_map(|(min, length)| Interval::new(min, min + length));
     let axis =

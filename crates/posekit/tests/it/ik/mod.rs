@@ -2,6 +2,7 @@
 
 mod conformance;
 mod figures;
+mod iterations;
 mod limits;
 mod long_runs;
 mod single;

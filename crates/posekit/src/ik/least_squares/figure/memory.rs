@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use crate::ik::linkage::Linkage;
+use crate::ik::linkage::{Linkage, State};
 use crate::ik::problem::IkProblem;
 
 /// The rows of an effector in the system.
@@ -14,13 +14,10 @@ pub(super) struct Rows {
     pub(super) orientation: Option<(usize, f64, DQuat)>,
 }
 
-/// The state of a linkage.
+/// The state of a figure.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Snapshot {
-    pub(super) turns: Vec<DQuat>,
-    pub(super) positions: Vec<DVec3>,
-    slides: Vec<f64>,
-    shifts: Vec<DVec3>,
+    pub(super) linkage: State,
     angles: Vec<f64>,
 }
 
@@ -45,6 +42,8 @@ pub(crate) struct FigureMemory {
     pub(super) beyond_starts: Vec<u32>,
     pub(super) beyond: Vec<u32>,
     pub(super) saved: Snapshot,
+    /// A state that may be gone back to at the end.
+    kept: Snapshot,
 }
 
 impl FigureMemory {
@@ -117,19 +116,23 @@ impl FigureMemory {
 
     pub(super) fn save(&mut self, linkage: &Linkage) {
         let Self { saved, angles, .. } = self;
-        saved.turns.clone_from(&linkage.turns);
-        saved.positions.clone_from(&linkage.positions);
-        saved.slides.clone_from(&linkage.slides);
-        saved.shifts.clone_from(&linkage.shifts);
+        saved.linkage.store(linkage);
         saved.angles.clone_from(angles);
     }
 
     pub(super) fn restore(&mut self, linkage: &mut Linkage) {
         let Self { saved, angles, .. } = self;
-        linkage.turns.clone_from(&saved.turns);
-        linkage.positions.clone_from(&saved.positions);
-        linkage.slides.clone_from(&saved.slides);
-        linkage.shifts.clone_from(&saved.shifts);
+        linkage.recall(&saved.linkage);
         angles.clone_from(&saved.angles);
+    }
+
+    pub(super) fn keep_saved(&mut self) {
+        core::mem::swap(&mut self.kept, &mut self.saved);
+    }
+
+    pub(super) fn restore_kept(&mut self, linkage: &mut Linkage) {
+        let Self { kept, angles, .. } = self;
+        linkage.recall(&kept.linkage);
+        angles.clone_from(&kept.angles);
     }
 }

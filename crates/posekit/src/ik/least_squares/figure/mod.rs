@@ -17,7 +17,7 @@ use crate::ik::limit::{Interval, JointLimit, clamp_angle};
 use crate::ik::linkage::{Linkage, NONE};
 use crate::ik::problem::{IkProblem, TraceDetail};
 use crate::ik::pull::Pull;
-use crate::ik::solve::{is_out_of_reach, is_reached};
+use crate::ik::solve::{is_out_of_reach, is_reached, is_short};
 use crate::ik::trace::{IkTrace, TraceIteration, TraceUpdate};
 use crate::ik::turn::perpendicular;
 use crate::pose::LocalPose;
@@ -313,6 +313,18 @@ impl Model for Figure<'_> {
         is_reached(self.linkage, self.problem) && self.poles_are_met()
     }
 
+    fn is_short(&self) -> bool {
+        is_short(self.linkage, self.problem)
+    }
+
+    fn keep_saved(&mut self) {
+        self.memory.keep_saved();
+    }
+
+    fn restore_kept(&mut self) {
+        self.memory.restore_kept(self.linkage);
+    }
+
     fn nudge(&mut self) -> bool {
         if is_out_of_reach(self.linkage, self.problem) || !self.linkage.nudge(NUDGE_RAD) {
             return false;
@@ -355,7 +367,7 @@ impl Figure<'_> {
     fn update_of(&self, k: usize) -> Option<TraceUpdate> {
         let slot = self.memory.effectors_beyond(k).next()?;
         let target = self.memory.beyond[slot] as usize;
-        let (linkage, saved) = (&*self.linkage, &self.memory.saved);
+        let (linkage, saved) = (&*self.linkage, &self.memory.saved.linkage);
         let pivot = &linkage.pivots[k];
         let effector = &linkage.effectors[target];
         let holder = effector.pivot as usize;
