@@ -511,3 +511,152 @@ fn numpy_finds_the_residuals_that_the_summary_says() {
         println!("{}", said.trim());
     }
 }
+
+/// The table of `docs/ik.md`, which `tools/ik_reference.py` and `tools/ik_jacobian_reference.py` (NumPy) made, comes
+/// out of the command line that stands above it there. Reads `course/motion_walking.bvh`.
+#[test]
+fn the_guides_residuals_come_out_of_the_command() {
+    let Some(data) = real_data() else { return };
+    let folder = Folder::with_arm();
+    let file = data.join("course/motion_walking.bvh");
+    let guide = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/ik.md");
+    let guide = std::fs::read_to_string(guide).unwrap();
+    let rows: [(&str, &[&str]); 8] = [
+        ("CCD", &["ccd"]),
+        ("CCD, from the base", &["ccd", "--order", "base"]),
+        ("FABRIK", &["fabrik"]),
+        ("Jacobian transpose, steepest descent", &["steepest"]),
+        (
+            "Jacobian transpose, conjugate directions (the default)",
+            &["transpose"],
+        ),
+        ("damped least squares", &["dls"]),
+        ("selectively damped least squares", &["sdls"]),
+        ("Levenberg-Marquardt", &["lm"]),
+    ];
+    for (name, solver) in rows {
+        let row = guide
+            .lines()
+            .find(|line| line.starts_with(&format!("| {name} |")));
+        let cells: Vec<f64> = row
+            .unwrap_or_else(|| panic!("{name}"))
+            .split('|')
+            .filter_map(|cell| cell.trim().parse().ok())
+            .collect();
+        assert_eq!(cells.len(), 3, "{name}");
+        for (iterations, written) in ["1", "5", "20"].into_iter().zip(cells) {
+            let fixed = [
+                "ik",
+                file.to_str().unwrap(),
+                "--rest",
+                "--root",
+                "0,0.931395,0",
+                "--start",
+                "RootJoint",
+                "--end",
+                "lWrist_end",
+                "--target",
+                "0.5,0.75,0.5",
+                "--tolerance",
+                "0",
+                "--json",
+                "--quiet",
+                "--iterations",
+                iterations,
+                "--solver",
+            ];
+            let summary = json(&folder.succeed(&[&fixed, solver].concat()));
+            let left = summary["worst"]["distance"].as_f64().unwrap();
+            let is_same = if written > 1e-6 {
+                (left - written).abs() < 6e-4 * written
+            } else {
+                left < 2.0 * written + 1e-12
+            };
+            assert!(is_same, "{name} {iterations}: {left:e}, not {written:e}");
+        }
+    }
+}
+
+#[test]
+fn the_rest_pose_stands_where_it_is_told_to() {
+    let folder = Folder::with_arm();
+    let text = folder.read("arm.bvh");
+    let turning_only = text
+        .replace("CHANNELS 6 Xposition Yposition Zposition", "CHANNELS 3")
+        .replace("10 20 30 ", "")
+        .replace("10.125 20 30 ", "");
+    folder.write("still.bvh", turning_only);
+    for (file, more) in [
+        ("arm.bvh", &[][..]),
+        ("arm.bvh", &["--root-offset", "add"]),
+        ("still.bvh", &[]),
+    ] {
+        let args = [
+            "ik",
+            file,
+            "--rest",
+            "--root",
+            "-1,2,3",
+            "--end",
+            "elbow_end",
+        ];
+        let aim = ["--target", "0,5,3", "-o", "out.bvh", "--json", "--quiet"];
+        let summary = json(&folder.succeed(&[&args[..], &aim, more].concat()));
+        // The elbow is at (-1, 4, 3) and its end one unit away from it; the target is a square's diagonal away.
+        let left = summary["worst"]["distance"].as_f64().unwrap();
+        assert!(
+            (left - (2.0_f64.sqrt() - 1.0)).abs() < 1e-6,
+            "{file}: {left}"
+        );
+        let fk = ["fk", "out.bvh", "-o", "-", "--format", "json"];
+        let places = json(&folder.succeed(&[&fk[..], more].concat()));
+        let root = &places["positions"][0][0];
+        assert_eq!(*root, serde_json::json!([-1, 2, 3]), "{file}");
+    }
+    let end = ["--end", "elbow_end"];
+    let error = folder.fail(
+        2,
+        &[&["ik", "arm.bvh", "--root", "0,0,0"], &end[..]].concat(),
+    );
+    assert!(error.contains("--rest"), "{error}");
+}
+
+#[test]
+fn two_bones_are_the_joints_that_are_named() {
+    let folder = folder_with_walk();
+    let bend = |joints: &str| {
+        let args = ["ik", "walk.bvh", "--end", "LeftHand", "--frames", "0"];
+        let how = ["--start", "Hips", "--solver", "two-bone"];
+        let more = [
+            "--offset",
+            "0,0.02,0",
+            "--two-bone-joints",
+            joints,
+            "--json",
+        ];
+        [&args[..], &how, &more].concat().join(" ")
+    };
+    let run = |joints: &str| {
+        let command = bend(joints);
+        folder.run(&command.split(' ').collect::<Vec<_>>())
+    };
+    let arm = json(&run("LeftUpperArm,LeftLowerArm").stdout);
+    assert_eq!(arm["reached"], true, "{arm}");
+    assert_eq!(
+        arm["values_changed"], 4,
+        "a shoulder and an elbow of one axis: {arm}"
+    );
+    let spine = json(&run("Spine,LeftLowerArm").stdout);
+    assert_eq!(spine["values_changed"], 6, "with a spine of three: {spine}");
+    for wrong in ["LeftLowerArm,LeftUpperArm", "RightUpperArm,RightLowerArm"] {
+        let ran = run(wrong);
+        assert_eq!(ran.code, Some(2), "{wrong}");
+        assert!(
+            ran.stderr.contains("do not follow each other"),
+            "{}",
+            ran.stderr
+        );
+    }
+    let ran = run("LeftUpperArm");
+    assert!(ran.code == Some(2) && ran.stderr.contains("two joints"));
+}

@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use glam::DQuat;
+use glam::{DQuat, DVec3};
 use posekit::ik::MovedJoint;
 use posekit::motion::{Motion, PositionPolicy};
 use posekit::pose::LocalPose;
-use posekit::rotation::angle_between;
+use posekit::rotation::{Axis, angle_between};
 use posekit::skeleton::Skeleton;
 use posekit_formats::bvh::edit::{self, EditError};
 use posekit_formats::bvh::{Bvh, BvhMotion};
@@ -43,7 +43,7 @@ impl Figure {
         let policy = args.root_offset.policy();
         let mut loaded = loaded;
         if args.rest {
-            put_at_rest(&mut loaded.bvh, policy);
+            put_at_rest(&mut loaded.bvh, policy, args.root.map(|root| root.0));
         }
         let motion = loaded.motion(policy)?;
         if motion.frame_count() == 0 {
@@ -120,15 +120,28 @@ fn refused(error: EditError) -> Failure {
     }
 }
 
-/// Makes the motion one frame of the rest pose.
-fn put_at_rest(bvh: &mut Bvh, policy: PositionPolicy) {
+/// Makes the motion one frame of the rest pose, with the first root where it is wanted. An axis for which that
+/// root has no position channel keeps its place by its OFFSET.
+fn put_at_rest(bvh: &mut Bvh, policy: PositionPolicy, root: Option<DVec3>) {
     use posekit::motion::Channel;
+    if let (Some(place), Some(first)) = (root, bvh.joints.first_mut()) {
+        for (axis, at) in Axis::ALL.into_iter().zip(place.to_array()) {
+            if !first.channels.contains(&Channel::Position(axis)) {
+                first.offset[axis.index()] = at;
+            }
+        }
+    }
     let mut values = Vec::new();
-    for joint in &bvh.joints {
+    for (index, joint) in bvh.joints.iter().enumerate() {
         let is_added = policy == PositionPolicy::AddToRootOffset && joint.parent.is_none();
+        let place = root.filter(|_| index == 0);
         values.extend(joint.channels.iter().map(|channel| match channel {
-            Channel::Position(axis) if !is_added => joint.offset[axis.index()],
-            Channel::Position(_) | Channel::Rotation(_) => 0.0,
+            Channel::Position(axis) => {
+                let offset = joint.offset[axis.index()];
+                let at = place.map_or(offset, |place| place[axis.index()]);
+                if is_added { at - offset } else { at }
+            }
+            Channel::Rotation(_) => 0.0,
         }));
     }
     let frame_time_secs = bvh

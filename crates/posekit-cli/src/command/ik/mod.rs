@@ -29,6 +29,7 @@ use crate::text::counted;
 use figure::Figure;
 use goals::Goals;
 use limits::Stiffness;
+use numbers::Vector;
 use solver::SolverArgs;
 
 /// Move joints so that hands, feet or any joint reach a target
@@ -60,6 +61,14 @@ pub(crate) struct IkArgs {
     /// Work on the rest pose, which the OFFSETs alone make, as a motion of one frame
     #[arg(long, conflicts_with = "frames")]
     rest: bool,
+    /// With --rest: where the first root stands, in the world [default: where its OFFSET has it]
+    #[arg(
+        long,
+        value_name = "X,Y,Z",
+        allow_hyphen_values = true,
+        requires = "rest"
+    )]
+    root: Option<Vector>,
     /// Let the roots go anywhere: the whole body moves
     #[arg(long)]
     free_root: bool,

@@ -2,10 +2,12 @@
 
 use clap::{Args, ValueEnum};
 use posekit::ik::{
-    CcdConfig, DampedLeastSquaresConfig, FabrikConfig, JacobianTransposeConfig,
+    CcdConfig, DampedLeastSquaresConfig, DescentDirection, FabrikConfig, JacobianTransposeConfig,
     LevenbergMarquardtConfig, SelectivelyDampedConfig, Solver, StopRule, SweepOrder, TwoBoneConfig,
 };
+use posekit::skeleton::{JointId, Skeleton};
 
+use super::goals::find;
 use crate::failure::Failure;
 
 /// The options of the solver.
@@ -21,6 +23,10 @@ pub(super) struct SolverArgs {
     /// How near counts as reached [default: a ten-thousandth of the longest chain]
     #[arg(long, value_name = "LENGTH")]
     tolerance: Option<f64>,
+    /// With --tolerance 0: farther from its target a solver at rest is stuck, and tries once more [default: a
+    /// ten-thousandth of the longest chain]
+    #[arg(long, value_name = "LENGTH")]
+    rest_tolerance: Option<f64>,
     /// How near an orientation counts as reached, in degrees
     #[arg(long, value_name = "DEGREES", default_value_t = 0.1)]
     turn_tolerance: f64,
@@ -33,6 +39,9 @@ pub(super) struct SolverArgs {
     /// For two-bone: the share of its length that a chain eases into as it stretches
     #[arg(long, value_name = "SHARE", default_value_t = 0.0)]
     softness: f64,
+    /// For two-bone: the two joints that turn [default: the first two of the chain]
+    #[arg(long, value_name = "UPPER,MIDDLE", value_delimiter = ',', num_args = 1)]
+    two_bone_joints: Vec<String>,
 }
 
 /// A solver by name.
@@ -44,8 +53,10 @@ pub(super) enum SolverName {
     Dls,
     /// Selectively damped least squares
     Sdls,
-    /// Jacobian transpose
+    /// Jacobian transpose along conjugate directions
     Transpose,
+    /// Jacobian transpose along the steepest descent, as published: slow in narrow valleys
+    Steepest,
     /// Cyclic coordinate descent
     Ccd,
     /// Forward and backward reaching
@@ -67,7 +78,7 @@ enum Order {
 
 impl SolverArgs {
     /// The solver.
-    pub(super) fn solver(&self) -> Result<Solver, Failure> {
+    pub(super) fn solver(&self, skeleton: &Skeleton) -> Result<Solver, Failure> {
         let max_step_rad = match self.max_step {
             None => f64::INFINITY,
             Some(step) if step > 0.0 => step.to_radians(),
@@ -81,6 +92,10 @@ impl SolverArgs {
             SolverName::Dls => Solver::DampedLeastSquares(DampedLeastSquaresConfig::default()),
             SolverName::Sdls => Solver::SelectivelyDamped(SelectivelyDampedConfig::default()),
             SolverName::Transpose => Solver::JacobianTranspose(JacobianTransposeConfig::default()),
+            SolverName::Steepest => Solver::JacobianTranspose(JacobianTransposeConfig {
+                direction: DescentDirection::Steepest,
+                ..JacobianTransposeConfig::default()
+            }),
             SolverName::Ccd => Solver::Ccd(CcdConfig {
                 order: match self.order {
                     Order::Tip => SweepOrder::TipToBase,
@@ -90,22 +105,34 @@ impl SolverArgs {
             }),
             SolverName::Fabrik => Solver::Fabrik(FabrikConfig::default()),
             SolverName::TwoBone => Solver::TwoBone(TwoBoneConfig {
-                joints: None,
+                joints: self.bent_joints(skeleton)?,
                 softness: self.softness,
             }),
             SolverName::Aim => Solver::Aim,
         })
     }
 
+    /// The joints that the two-bone solver turns, if it was told.
+    fn bent_joints(&self, skeleton: &Skeleton) -> Result<Option<[JointId; 2]>, Failure> {
+        match self.two_bone_joints.as_slice() {
+            [] => Ok(None),
+            [upper, middle] => Ok(Some([find(skeleton, upper)?, find(skeleton, middle)?])),
+            _ => Err(Failure::usage(
+                "--two-bone-joints takes two joints with a comma between them",
+            )),
+        }
+    }
+
     /// When it stops, for chains of which the longest is `reach` long.
     pub(super) fn stop_rule(&self, reach: f64) -> Result<StopRule, Failure> {
         let position_tolerance = self.tolerance.unwrap_or(1e-4 * reach);
-        if !(position_tolerance >= 0.0 && self.turn_tolerance >= 0.0) {
+        let rest_tolerance = self.rest_tolerance.unwrap_or(1e-4 * reach);
+        if !(position_tolerance >= 0.0 && rest_tolerance >= 0.0 && self.turn_tolerance >= 0.0) {
             return Err(Failure::usage("a tolerance is a number from zero on"));
         }
         Ok(StopRule {
             position_tolerance,
-            rest_tolerance: 1e-4 * reach,
+            rest_tolerance,
             orientation_tolerance_rad: self.turn_tolerance.to_radians(),
             max_iterations: self.iterations,
         })

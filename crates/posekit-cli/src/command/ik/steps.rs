@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3};
 use posekit::ik::{
     Base, IkProblem, IkReport, IkTarget, IkWorkspace, Movable, MovedJoint, Pole, PreferredPose,
-    RestPull, Solver, StartJoint, TraceDetail, solve,
+    RestPull, Solver, StartJoint, TraceDetail, TwoBoneConfig, solve,
 };
 use posekit::pose::{GlobalPose, LocalPose, forward_kinematics};
 use posekit::rotation::angle_between;
@@ -63,9 +63,11 @@ impl Task {
     pub(super) fn new(args: &IkArgs, figure: &Figure, goals: Vec<Goal>) -> Result<Self, Failure> {
         let skeleton = &*figure.skeleton;
         let solver_name = args.solver.solver;
+        let solver = args.solver.solver(skeleton)?;
         let mut setup = Setup::new(args.free_root);
         for goal in &goals {
             setup.add(skeleton, goal, solver_name)?;
+            check_bent_joints(skeleton, goal, solver_name, &solver)?;
         }
         let mut problem = IkProblem::new(setup.base, setup.movable(), Vec::new(), setup.reach);
         problem.stop = args.solver.stop_rule(setup.reach)?;
@@ -98,7 +100,7 @@ impl Task {
         Ok(Self {
             goals,
             solver_name,
-            solver: args.solver.solver()?,
+            solver,
             problem,
             frames,
             is_cold: args.cold_start,
@@ -251,6 +253,37 @@ impl Setup {
         self.joints.sort_unstable();
         self.joints.dedup();
         Movable::Joints(std::mem::take(&mut self.joints))
+    }
+}
+
+/// Two joints that the two-bone solver was told to turn lie on the chain, in its order.
+fn check_bent_joints(
+    skeleton: &Skeleton,
+    goal: &Goal,
+    solver_name: SolverName,
+    solver: &Solver,
+) -> Result<(), Failure> {
+    let Solver::TwoBone(TwoBoneConfig {
+        joints: Some([upper, middle]),
+        ..
+    }) = solver
+    else {
+        return Ok(());
+    };
+    let chain = chain(skeleton, goal, solver_name)?;
+    let place = |joint: &JointId| chain.joints().iter().position(|other| other == joint);
+    match (place(upper), place(middle)) {
+        (Some(upper), Some(middle)) if upper < middle => Ok(()),
+        _ => {
+            let name = |joint: &JointId| skeleton.unique_name(*joint);
+            Err(Failure::usage(format!(
+                "'{}' and '{}' do not follow each other on the chain to '{}'",
+                name(upper),
+                name(middle),
+                name(&goal.end)
+            ))
+            .try_next("--start says where the chain starts"))
+        }
     }
 }
 

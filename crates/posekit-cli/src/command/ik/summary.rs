@@ -24,12 +24,12 @@ fn word(outcome: IkOutcome) -> &'static str {
     }
 }
 
-/// A residual with as many digits as it has.
+/// A residual with four digits, or as it is counted where it is small.
 fn small(value: f64) -> String {
     if value == 0.0 {
         "0".to_owned()
-    } else if value.abs() < 1e-3 {
-        format!("{value:.1e}")
+    } else if value.abs() < 0.1 {
+        format!("{value:.3e}")
     } else {
         format!("{value:.4}")
     }
