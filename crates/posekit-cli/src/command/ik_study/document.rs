@@ -44,6 +44,8 @@ pub(super) enum Block {
     Pictures(PictureTable),
     /// Lines to be typed.
     Code(String),
+    /// What commands show, and the commands.
+    Commands(Vec<(String, String)>),
 }
 
 /// A table.
@@ -57,6 +59,36 @@ pub(super) struct Table {
     pub(super) is_text: bool,
     /// The rows.
     pub(super) rows: Vec<Vec<Entry>>,
+}
+
+/// A table with more columns than this is too wide for a page.
+const MOST_COLUMNS: usize = 9;
+
+impl Table {
+    /// A table of numbers that fits a page: one that is too wide has its rows as columns.
+    pub(super) fn fitted(self) -> Self {
+        if self.columns.len() <= MOST_COLUMNS || self.rows.len() >= MOST_COLUMNS {
+            return self;
+        }
+        let first = self.columns.iter().take(1).cloned();
+        let heads = self
+            .rows
+            .iter()
+            .filter_map(|row| Some(row.first()?.text.clone()));
+        let rows = (1..self.columns.len()).map(|column| {
+            let entries = self
+                .rows
+                .iter()
+                .map(|row| row.get(column).cloned().unwrap_or_default());
+            let head = Entry::new(self.columns[column].clone());
+            std::iter::once(head).chain(entries).collect()
+        });
+        Self {
+            columns: first.chain(heads).collect(),
+            rows: rows.collect(),
+            ..self
+        }
+    }
 }
 
 /// What stands in a table.
@@ -213,6 +245,25 @@ pub(super) fn code(name: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_wide_table_has_its_rows_as_columns() {
+        let wide = |width: usize| Table {
+            caption: "x".to_owned(),
+            columns: (0..width).map(|column| column.to_string()).collect(),
+            is_text: false,
+            rows: vec![
+                (0..width)
+                    .map(|column| Entry::new(format!("a{column}")))
+                    .collect(),
+            ],
+        };
+        assert_eq!(wide(9).fitted().rows.len(), 1);
+        let turned = wide(10).fitted();
+        assert_eq!(turned.columns, ["0", "a0"]);
+        assert_eq!(turned.rows.len(), 9);
+        assert_eq!(turned.rows[4], [Entry::new("5"), Entry::new("a5")]);
+    }
 
     #[test]
     fn marks_make_spans_and_lonely_marks_are_text() {

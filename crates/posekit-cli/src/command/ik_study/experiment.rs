@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use posekit::ik::{IkWorkspace, solve};
+use posekit::ik::{IkProblem, IkReport, IkWorkspace, solve};
 use posekit::pose::LocalPose;
 use posekit::rotation::angle_between;
 
@@ -44,10 +44,24 @@ pub(super) struct Run {
     pub(super) secs: f64,
 }
 
+/// How a solver came to a target when it may stop there: within the tolerance of the chain, with the most
+/// iterations that were asked for.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Arrival {
+    /// How many iterations it took; none if it did not get there, or the target is out of reach.
+    pub(super) iterations: Option<u32>,
+    /// How much all joints turned together, from the start pose.
+    pub(super) motion_rad: f64,
+    /// How long it took.
+    pub(super) secs: f64,
+}
+
 /// All runs: chains, in them targets, in them solvers, in them counts.
 #[derive(Debug)]
 pub(super) struct Results {
     runs: Vec<Run>,
+    /// For each chain, in it each target, in it each solver.
+    arrivals: Vec<Arrival>,
     /// Where each chain's runs start.
     starts: Vec<usize>,
     per_target: usize,
@@ -67,6 +81,13 @@ impl Results {
             + cell.method * self.per_method
             + cell.count;
         &self.runs[index]
+    }
+
+    /// How a solver came to a target.
+    pub(super) fn arrival(&self, chain: usize, target: usize, method: usize) -> &Arrival {
+        let methods = self.per_target / self.per_method;
+        let before = self.starts[chain] / self.per_method;
+        &self.arrivals[before + target * methods + method]
     }
 
     /// The runs of a chain, a solver and a count for those targets that are wanted.
@@ -108,6 +129,7 @@ pub(super) fn run(study: &Study, workers: NonZeroUsize, quiet: bool) -> Result<R
     }
     let progress = Progress::steps(places.len(), "targets", quiet);
     let mut runs = Vec::with_capacity(before);
+    let mut arrivals = Vec::with_capacity(before / per_method.max(1));
     let mut has_failed = false;
     jobs::in_order(
         places.len(),
@@ -116,8 +138,9 @@ pub(super) fn run(study: &Study, workers: NonZeroUsize, quiet: bool) -> Result<R
         |_, worked| {
             progress.advance("");
             match worked {
-                Ok(of_one) => {
+                Ok((of_one, arrived)) => {
                     runs.extend(of_one);
+                    arrivals.extend(arrived);
                     ControlFlow::Continue(())
                 }
                 Err(_panic) => {
@@ -134,16 +157,17 @@ pub(super) fn run(study: &Study, workers: NonZeroUsize, quiet: bool) -> Result<R
     }
     Ok(Results {
         runs,
+        arrivals,
         starts,
         per_target,
         per_method,
     })
 }
 
-fn of_target(study: &Study, chain: usize, target: usize) -> Vec<Run> {
+fn of_target(study: &Study, chain: usize, target: usize) -> (Vec<Run>, Vec<Arrival>) {
     let mut workspace = IkWorkspace::new();
     let mut pose = study.start.clone();
-    let mut runs = Vec::new();
+    let (mut runs, mut arrivals) = (Vec::new(), Vec::new());
     for method in 0..study.methods.len() {
         for count in 0..study.counts.len() {
             let cell = Cell {
@@ -158,32 +182,66 @@ fn of_target(study: &Study, chain: usize, target: usize) -> Vec<Run> {
             }
             runs.push(run_cell(study, cell, &mut pose, &mut workspace));
         }
+        let cell = Cell {
+            chain,
+            target,
+            method,
+            count: study.counts.len() - 1,
+        };
+        arrivals.push(arrive(study, cell, &mut pose, &mut workspace));
     }
-    runs
+    (runs, arrivals)
 }
 
 fn run_cell(study: &Study, cell: Cell, pose: &mut LocalPose, workspace: &mut IkWorkspace) -> Run {
-    let chain = &study.chains[cell.chain];
-    let target = &study.targets[cell.chain][cell.target];
+    let (chain, target) = (&study.chains[cell.chain], study.target(cell));
     let problem = chain.problem(target.place, study.counts[cell.count]);
-    let solver = study.methods[cell.method].solver(chain);
-    pose.clone_from(&study.start);
-    let clock = Instant::now();
-    let report = solve(&study.skeleton, pose, &problem, &solver, workspace);
-    let secs = clock.elapsed().as_secs_f64();
-    let turned = workspace.moved().iter().map(|moved| {
-        let before = study.start.rotations[moved.joint.index()];
-        angle_between(before.as_dquat().normalize(), moved.rotation)
-    });
+    let (report, secs) = run_problem(study, cell, &problem, pose, workspace);
     let residual = report.largest_distance();
     Run {
         cell,
         residual,
         miss: (residual - target.beyond).max(0.0),
         iterations: report.iterations,
-        motion_rad: turned.sum(),
+        motion_rad: motion_rad(study, workspace),
         secs,
     }
+}
+
+fn arrive(study: &Study, cell: Cell, pose: &mut LocalPose, workspace: &mut IkWorkspace) -> Arrival {
+    let (chain, target) = (&study.chains[cell.chain], study.target(cell));
+    let mut problem = chain.problem(target.place, study.counts[cell.count]);
+    problem.stop.position_tolerance = chain.tolerance;
+    let (report, secs) = run_problem(study, cell, &problem, pose, workspace);
+    let has_arrived = !target.is_out_of_reach() && report.largest_distance() <= chain.tolerance;
+    Arrival {
+        iterations: has_arrived.then_some(report.iterations),
+        motion_rad: motion_rad(study, workspace),
+        secs,
+    }
+}
+
+fn run_problem(
+    study: &Study,
+    cell: Cell,
+    problem: &IkProblem,
+    pose: &mut LocalPose,
+    workspace: &mut IkWorkspace,
+) -> (IkReport, f64) {
+    let solver = study.methods[cell.method].solver(&study.chains[cell.chain]);
+    pose.clone_from(&study.start);
+    let clock = Instant::now();
+    let report = solve(&study.skeleton, pose, problem, &solver, workspace);
+    (report, clock.elapsed().as_secs_f64())
+}
+
+/// How much all joints of the last solution turned together, from the start pose.
+fn motion_rad(study: &Study, workspace: &IkWorkspace) -> f64 {
+    let turned = workspace.moved().iter().map(|moved| {
+        let before = study.start.rotations[moved.joint.index()];
+        angle_between(before.as_dquat().normalize(), moved.rotation)
+    });
+    turned.sum()
 }
 
 /// The pose that a run left.

@@ -11,6 +11,9 @@ use super::document::{
 /// How it looks, on a screen and on paper.
 const STYLE: &str = include_str!("style.css");
 
+/// On paper a table with more rows than this may break between two of them.
+const MOST_KEPT_ROWS: usize = 14;
+
 /// Writes a report; `pictures` are PNG files, by number.
 pub(super) fn write(document: &Document, pictures: &[Vec<u8>]) -> String {
     let mut page = Page {
@@ -158,6 +161,14 @@ impl Page<'_> {
                 ));
             }
             Block::Pictures(table) => self.picture_table(table),
+            Block::Commands(commands) => {
+                self.line("<ul class=\"commands\">");
+                for (title, command) in commands {
+                    let (title, command) = (marked_up(title), escaped(command));
+                    self.line(&format!("<li>{title}<pre>{command}</pre></li>"));
+                }
+                self.line("</ul>");
+            }
             Block::Code(text) => {
                 let text: Vec<String> = text.lines().map(escaped).collect();
                 self.line(&format!("<pre>{}</pre>", text.join("\n")));
@@ -173,7 +184,11 @@ impl Page<'_> {
     fn table(&mut self, table: &Table) {
         self.tables += 1;
         let (number, caption) = (self.tables, marked_up(&table.caption));
-        let class = if table.is_text { "text" } else { "numbers" };
+        let class = match (table.is_text, table.rows.len()) {
+            (true, _) => "text",
+            (false, 0..=MOST_KEPT_ROWS) => "numbers",
+            (false, _) => "numbers long",
+        };
         self.line(&format!(
             "<figure class=\"table\"><figcaption><b>Table {number}.</b> {caption}</figcaption>\n<table class=\"{class}\">"
         ));

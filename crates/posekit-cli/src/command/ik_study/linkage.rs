@@ -102,14 +102,31 @@ impl StudiedChain {
     /// The two joints of the chain, one after the other, that make the longest limb: from the one to the other,
     /// and from that to the end. `None` if it has but one.
     pub(super) fn two_bones(&self) -> Option<[JointId; 2]> {
+        let upper = self.upper_of_two()?;
+        Some([self.turning[upper], self.turning[upper + 1]])
+    }
+
+    /// Whether those two joints alone bring the end to a place within the tolerance, if all others stay.
+    pub(super) fn two_bones_reach(&self, place: DVec3) -> bool {
+        let Some(index) = self.upper_of_two() else {
+            return false;
+        };
+        let (upper, middle) = (self.points[index], self.points[index + 1]);
+        let end = self.points[self.points.len() - 1];
+        let (first, second) = (upper.distance(middle), middle.distance(end));
+        let distance = upper.distance(place);
+        distance <= first + second + self.tolerance
+            && distance >= (first - second).abs() - self.tolerance
+    }
+
+    /// Index of the upper one of the two joints.
+    fn upper_of_two(&self) -> Option<usize> {
         let end = self.points[self.points.len() - 1];
         let shorter = |&index: &usize| {
             let (upper, middle) = (self.points[index], self.points[index + 1]);
             upper.distance(middle).min(middle.distance(end))
         };
-        let best = (0..self.turning.len().saturating_sub(1))
-            .max_by(|a, b| shorter(a).total_cmp(&shorter(b)))?;
-        Some([self.turning[best], self.turning[best + 1]])
+        (0..self.turning.len().saturating_sub(1)).max_by(|a, b| shorter(a).total_cmp(&shorter(b)))
     }
 
     /// Where the end is in a pose.

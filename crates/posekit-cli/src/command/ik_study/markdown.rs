@@ -32,6 +32,11 @@ fn push(out: &mut String, block: &Block) {
             out.push_str(&format!("(In the HTML, a figure: {})\n\n", plain(caption)));
         }
         Block::Pictures(table) => push_pictures(out, table),
+        Block::Commands(commands) => {
+            for (title, command) in commands {
+                out.push_str(&format!("{}\n\n```text\n{command}\n```\n\n", plain(title)));
+            }
+        }
         Block::Code(text) => out.push_str(&format!("```text\n{text}\n```\n\n")),
     }
 }

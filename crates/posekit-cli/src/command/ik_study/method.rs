@@ -15,7 +15,7 @@ pub(super) enum Method {
     Ccd,
     /// Forward and backward reaching
     Fabrik,
-    /// Jacobian transpose
+    /// Jacobian transpose, conjugate directions
     Transpose,
     /// Damped least squares
     Dls,
@@ -82,48 +82,54 @@ impl Method {
             Self::Ccd => Facts {
                 name: "CCD",
                 full_name: "cyclic coordinate descent",
-                step: "From the last joint to the first, each turns by the angle between $a$ (joint to effector) \
-                       and $b$ (joint to target) about $a × b$, and carries all beyond it along.",
+                step: "From the last joint to the first: each joint turns by the angle between $a$ (joint to end) and $b$ \
+                       (joint to target) about $a × b$, and carries everything beyond it along as one rigid piece.",
                 source: "Wang and Chen 1991, doi:10.1109/70.86079",
             },
             Self::Fabrik => Facts {
                 name: "FABRIK",
                 full_name: "forward and backward reaching",
-                step: "Points are moved, not angles: $pᵢ ← pᵢ₊₁ + dᵢ (pᵢ − pᵢ₊₁) / |pᵢ − pᵢ₊₁|$ from the target \
-                       inward, then the like from the base outward; rotations are recovered from the points.",
+                step: "Points move, not angles: $pᵢ ← pᵢ₊₁ + dᵢ (pᵢ − pᵢ₊₁) / |pᵢ − pᵢ₊₁|$ from the target inward, then \
+                       the same from the base outward. Rotations are recovered from the points.",
                 source: "Aristidou and Lasenby 2011, doi:10.1016/j.gmod.2011.05.003",
             },
             Self::Transpose => Facts {
                 name: "Transpose",
-                full_name: "Jacobian transpose",
-                step: "All joints at once: $Δθ = α Jᵀe$ with $α = (e · JJᵀe) / |JJᵀe|²$.",
-                source: "Wolovich and Elliott 1984; Buss 2004",
+                full_name: "Jacobian transpose, conjugate directions",
+                step: "All joints at once along $s$: $Δθ = αs$ with $α = (e · Js) / |Js|²$, the best length. The published \
+                       method is steepest descent, $s = g = Jᵀe$. What runs here makes each direction conjugate to the \
+                       one before: $s = g + βs′$ with $β = max(0, g · (g − g′) / |g′|²)$ (primes: the iteration \
+                       before). It costs the same and needs far fewer iterations.",
+                source: "Wolovich and Elliott 1984; Buss 2004; conjugate directions: Polak and Ribière 1969",
             },
             Self::Dls => Facts {
                 name: "DLS",
                 full_name: "damped least squares",
-                step: "$Δθ = Jᵀ (JJᵀ + λ²I)⁻¹ e$ with a constant damping $λ$ and a clamped error $e$.",
-                source: "Wampler 1986; Nakamura and Hanafusa 1986; Buss 2004",
+                step: "$Δθ = Jᵀ (JJᵀ + λ²I)⁻¹ e$ with $e$ clamped to half the length of the chain $L$, and a damping that \
+                       grows with it: $λ² = L² (0.01 + |e| / L)$.",
+                source: "Wampler 1986; Nakamura and Hanafusa 1986; clamped error: Buss 2004; damping by the error: Chan \
+                         and Lawrence 1988",
             },
             Self::Sdls => Facts {
                 name: "SDLS",
                 full_name: "selectively damped least squares",
-                step: "As the pseudoinverse, $Δθ = Σ vᵢ (uᵢ · e) / σᵢ$, each singular direction damped by how far it \
-                       would carry the effector.",
+                step: "The pseudoinverse $Δθ = Σ vᵢ (uᵢ · e) / σᵢ$, with each singular direction damped on its own, by how \
+                       far the joints would turn compared with how far the end would go; $e$ is clamped as in DLS.",
                 source: "Buss and Kim 2005, doi:10.1080/2151237X.2005.10129202",
             },
             Self::Lm => Facts {
                 name: "LM",
                 full_name: "Levenberg-Marquardt",
-                step: "Minimises $½ |f(θ) − x′|²$: $Δθ = (JᵀJ + μI)⁻¹ Jᵀe$, with a $μ$ that falls as the error does \
-                       and rises when a step makes it worse.",
+                step: "Minimises $½ |f(θ) − x′|²$: $Δθ = (JᵀJ + μI)⁻¹ Jᵀe$ with $μ = m|e|²$, lengths in those of the chain. The factor $m$ falls after a step \
+                       as good as foretold and rises after one that makes the error grow, which is taken back.",
                 source: "Sugihara 2011, doi:10.1109/TRO.2011.2148230; Nielsen 1999",
             },
             Self::TwoBone => Facts {
                 name: "Two-bone",
                 full_name: "two joints in closed form",
-                step: "The two joints only between which the bones are longest (shoulder and elbow), by the law of \
-                       cosines, in one step: $cos γ = (l₁² + l₂² − d²) / (2 l₁l₂)$. All others keep their angles.",
+                step: "Only the two neighbouring joints with the longest bones turn (shoulder and elbow), by the law of \
+                       cosines in one step: $cos γ = (l₁² + l₂² − d²) / (2 l₁l₂)$. All other joints keep their angles, so \
+                       it reaches only what these two bones reach.",
                 source: "Tolani, Goswami and Badler 2000, doi:10.1006/gmod.2000.0528",
             },
         }
@@ -132,6 +138,11 @@ impl Method {
     /// Its short name.
     pub(super) fn name(self) -> &'static str {
         self.facts().name
+    }
+
+    /// Whether it turns two joints of the chain and no others.
+    pub(super) fn is_two_bone(self) -> bool {
+        self == Self::TwoBone
     }
 
     /// Its name on the command line.

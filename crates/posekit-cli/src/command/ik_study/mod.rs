@@ -15,6 +15,7 @@ mod method;
 mod moving;
 mod pictures;
 mod report;
+mod reproduce;
 mod setup;
 mod statistics;
 mod table_files;
@@ -86,15 +87,7 @@ fn refuse_input(args: &IkStudyArgs, poses: &Path) -> Result<(), Failure> {
 
 /// What was typed.
 fn command_line() -> String {
-    let words = std::env::args_os().skip(1).map(|word| {
-        let word = word.to_string_lossy().into_owned();
-        let is_plain = |c: char| c.is_alphanumeric() || "-_./:,=+\\".contains(c);
-        if !word.is_empty() && word.chars().all(is_plain) {
-            word
-        } else {
-            format!("'{}'", word.replace('\'', "'\\''"))
-        }
-    });
-    let words: Vec<String> = std::iter::once("posekit".to_owned()).chain(words).collect();
-    words.join(" ")
+    let typed = std::env::args_os().skip(1);
+    let typed = typed.map(|word| word.to_string_lossy().into_owned());
+    reproduce::line(std::iter::once("posekit".to_owned()).chain(typed))
 }

@@ -70,6 +70,11 @@ pub(super) struct Following {
 }
 
 impl Following {
+    /// Whether the target stays within reach all the way.
+    pub(super) fn is_within_reach(&self) -> bool {
+        self.path == Path::Circle
+    }
+
     /// The most that one joint turned from one frame to the next, in radians.
     pub(super) fn largest_step_rad(&self) -> f64 {
         self.steps_rad.iter().copied().fold(0.0, f64::max)

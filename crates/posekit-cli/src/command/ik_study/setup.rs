@@ -1,5 +1,6 @@
 //! From the options to what is studied: the figure, its chains, and the targets of each.
 
+use std::ffi::OsString;
 use std::sync::Arc;
 
 use fastrand::Rng;
@@ -11,6 +12,7 @@ use posekit_render::stage::{Actor, SkeletonStyle};
 use posekit_render::theme::CharacterColors;
 
 use super::args::IkStudyArgs;
+use super::experiment::Cell;
 use super::linkage::StudiedChain;
 use super::method::Method;
 use super::targets::{self, Kind, Target};
@@ -18,6 +20,7 @@ use crate::args::Global;
 use crate::failure::Failure;
 use crate::inputs;
 use crate::load;
+use crate::root_offset::RootOffset;
 use crate::select;
 
 /// The example of the course for which this command was made: its chain and its target.
@@ -37,6 +40,10 @@ const MOST_RUNS: u64 = 20_000_000;
 pub(super) struct Study {
     /// What the input is called.
     pub(super) input: String,
+    /// The input as it was given on the command line.
+    pub(super) file: OsString,
+    /// What a root's position channels do with its OFFSET.
+    pub(super) root_offset: RootOffset,
     /// The figure.
     pub(super) skeleton: Arc<Skeleton>,
     /// The pose in which every solver starts.
@@ -45,6 +52,8 @@ pub(super) struct Study {
     pub(super) actor: Actor,
     /// The frame that the start pose is of; the rest pose if none.
     pub(super) start_frame: Option<usize>,
+    /// Where the root was put in the rest pose, if not where its OFFSET has it.
+    pub(super) root_place: Option<DVec3>,
     /// The chains.
     pub(super) chains: Vec<StudiedChain>,
     /// The targets of each chain.
@@ -67,6 +76,16 @@ impl Study {
     /// The count after which poses are shown.
     pub(super) fn shown_count(&self) -> u32 {
         self.counts[self.shown]
+    }
+
+    /// The largest number of iterations.
+    pub(super) fn last_count(&self) -> u32 {
+        self.counts[self.counts.len() - 1]
+    }
+
+    /// The target of a run.
+    pub(super) fn target(&self, cell: Cell) -> &Target {
+        &self.targets[cell.chain][cell.target]
     }
 }
 
@@ -95,7 +114,9 @@ pub(super) fn study(args: &IkStudyArgs, global: &Global) -> Result<Study, Failur
         .motion(args.root_offset.policy())
         .map_err(|failure| failure.in_file(&input.name()))?;
     let skeleton = Arc::clone(motion.skeleton());
-    let start = start_pose(args, &motion).map_err(|failure| failure.in_file(&input.name()))?;
+    let root_place = root_place(args, &skeleton);
+    let start = start_pose(args.frame, root_place, &motion)
+        .map_err(|failure| failure.in_file(&input.name()))?;
     let chains =
         chains(args, &skeleton, &start).map_err(|failure| failure.in_file(&input.name()))?;
     let still = motion_of(&skeleton, std::slice::from_ref(&start));
@@ -123,10 +144,13 @@ pub(super) fn study(args: &IkStudyArgs, global: &Global) -> Result<Study, Failur
     }
     Ok(Study {
         input: input.relative.display().to_string(),
+        file: args.file.clone(),
+        root_offset: args.root_offset,
         skeleton,
         start,
         actor,
         start_frame: args.frame,
+        root_place: args.frame.is_none().then_some(root_place).flatten(),
         chains,
         targets,
         methods,
@@ -138,9 +162,13 @@ pub(super) fn study(args: &IkStudyArgs, global: &Global) -> Result<Study, Failur
     })
 }
 
-fn start_pose(args: &IkStudyArgs, motion: &Motion) -> Result<LocalPose, Failure> {
-    match args.frame {
-        None => Ok(rest_pose(args, motion.skeleton())),
+fn start_pose(
+    frame: Option<usize>,
+    root_place: Option<DVec3>,
+    motion: &Motion,
+) -> Result<LocalPose, Failure> {
+    match frame {
+        None => Ok(rest_pose(root_place, motion.skeleton())),
         Some(frame) if frame < motion.frame_count() => Ok(motion.pose(frame)),
         Some(frame) => Err(Failure::new(format!("frame {frame} is past the end"))
             .try_next(format!("the frames are 0..{}", motion.frame_count()))),
@@ -148,14 +176,18 @@ fn start_pose(args: &IkStudyArgs, motion: &Motion) -> Result<LocalPose, Failure>
 }
 
 /// The rest pose, with the first root where it was asked for.
-fn rest_pose(args: &IkStudyArgs, skeleton: &Skeleton) -> LocalPose {
+fn rest_pose(root_place: Option<DVec3>, skeleton: &Skeleton) -> LocalPose {
     let mut pose = LocalPose::rest(skeleton);
-    let given = args.root.as_ref().map(|root| root.place);
-    let course = is_course(skeleton).then_some(COURSE_ROOT);
-    if let (Some(place), Some(root)) = (given.or(course), skeleton.roots().next()) {
+    if let (Some(place), Some(root)) = (root_place, skeleton.roots().next()) {
         pose.translations[root.index()] = place.as_vec3();
     }
     pose
+}
+
+/// Where the first root stands in the rest pose, if not where its OFFSET has it.
+fn root_place(args: &IkStudyArgs, skeleton: &Skeleton) -> Option<DVec3> {
+    let given = args.root.as_ref().map(|root| root.place);
+    given.or(is_course(skeleton).then_some(COURSE_ROOT))
 }
 
 /// Whether the figure is the one of the course: it has its chain.
@@ -363,9 +395,35 @@ fn named(
     } else {
         let direction = (across * 0.4 + DVec3::Y * 0.45 + ahead * 0.8).normalize();
         let place = main.base() + direction * (0.8 * main.reach);
-        // Numbers that can be said.
-        let unit = libm::pow(10.0, libm::floor(libm::log10(main.reach)) - 1.0);
-        (place / unit).round() * unit
+        spoken(place, main.reach)
     };
     vec![("target".to_owned(), place)]
+}
+
+/// A place rounded to two digits of a reach, in numbers as short as they are said: 0.3, not 0.30000000000000004.
+fn spoken(place: DVec3, reach: f64) -> DVec3 {
+    let power = libm::floor(libm::log10(reach)) - 1.0;
+    // A power of ten below one is not exact, and what it divides into is.
+    let scale = libm::pow(10.0, power.abs());
+    if power < 0.0 {
+        (place * scale).round() / scale
+    } else {
+        (place / scale).round() * scale
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_target_of_ours_is_short_to_say() {
+        let place = DVec3::new(0.312, -0.489, 0.7101);
+        assert_eq!(spoken(place, 1.07), DVec3::new(0.3, -0.5, 0.7));
+        assert_eq!(spoken(place, 0.97), DVec3::new(0.31, -0.49, 0.71));
+        assert_eq!(
+            spoken(place * 1e3, 1070.0),
+            DVec3::new(300.0, -500.0, 700.0)
+        );
+    }
 }

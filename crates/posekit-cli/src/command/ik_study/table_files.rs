@@ -19,17 +19,21 @@ fn posed_cells<'a>(study: &'a Study, results: &'a Results) -> impl Iterator<Item
 /// One line for every run.
 pub(super) fn csv(study: &Study, results: &Results) -> String {
     let mut out = "chain,target,kind,x,y,z,reach,beyond_reach,tolerance,solver,iterations,iterations_made,residual,\
-                   reached,joint_motion_deg,pose_frame"
+                   reached,as_near_as_can_be,joint_motion_deg,iterations_to_tolerance,joint_motion_to_tolerance_deg,pose_frame"
         .to_owned();
-    out.push_str(if study.has_times { ",time_us\n" } else { "\n" });
+    out.push_str(if study.has_times {
+        ",time_us,time_to_tolerance_us\n"
+    } else {
+        "\n"
+    });
     let mut frame = 0;
     for run in results.all() {
-        push_line(&mut out, study, run, &mut frame);
+        push_line(&mut out, study, results, run, &mut frame);
     }
     out
 }
 
-fn push_line(out: &mut String, study: &Study, run: &Run, frame: &mut usize) {
+fn push_line(out: &mut String, study: &Study, results: &Results, run: &Run, frame: &mut usize) {
     let cell = run.cell;
     let chain = &study.chains[cell.chain];
     let target = &study.targets[cell.chain][cell.target];
@@ -39,10 +43,19 @@ fn push_line(out: &mut String, study: &Study, run: &Run, frame: &mut usize) {
     } else {
         String::new()
     };
+    let arrival = results.arrival(cell.chain, cell.target, cell.method);
+    let (arrival_iterations, arrival_deg) = match arrival.iterations {
+        Some(count) => (
+            count.to_string(),
+            format!("{:.4}", arrival.motion_rad.to_degrees()),
+        ),
+        None => (String::new(), String::new()),
+    };
+    let is_near = run.miss <= chain.tolerance;
     // Writing to a string cannot fail.
     let _ = write!(
         out,
-        "{},{},{},{},{},{},{},{},{},{},{},{},{:e},{},{:.4},{pose_frame}",
+        "{},{},{},{},{},{},{},{},{},{},{},{},{:e},{},{},{:.4},{arrival_iterations},{arrival_deg},{pose_frame}",
         field(&chain.name),
         field(&target.name),
         target.kind.name(),
@@ -56,11 +69,14 @@ fn push_line(out: &mut String, study: &Study, run: &Run, frame: &mut usize) {
         study.counts[cell.count],
         run.iterations,
         run.residual,
-        u8::from(run.miss <= chain.tolerance),
+        u8::from(is_near && !target.is_out_of_reach()),
+        u8::from(is_near),
         run.motion_rad.to_degrees(),
     );
     if study.has_times {
-        let _ = write!(out, ",{:.2}", run.secs * 1e6);
+        let secs = arrival.iterations.map(|_| arrival.secs * 1e6);
+        let secs = secs.map_or_else(String::new, |micros| format!("{micros:.2}"));
+        let _ = write!(out, ",{:.2},{secs}", run.secs * 1e6);
     }
     out.push('\n');
 }

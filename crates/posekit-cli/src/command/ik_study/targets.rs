@@ -54,15 +54,29 @@ pub(super) struct Target {
     pub(super) beyond: f64,
 }
 
+/// A target that is out of reach by no more than this share of the reach is within it: what rounding makes of
+/// a chain that is stretched straight.
+const AT_REACH: f64 = 1e-9;
+
 impl Target {
     /// A target of a chain.
     pub(super) fn new(chain: &StudiedChain, kind: Kind, name: String, place: DVec3) -> Self {
+        let beyond = chain.beyond(place);
         Self {
             name,
             kind,
             place,
-            beyond: chain.beyond(place),
+            beyond: if beyond > AT_REACH * chain.reach {
+                beyond
+            } else {
+                0.0
+            },
         }
+    }
+
+    /// Whether no pose brings the chain's end to it.
+    pub(super) fn is_out_of_reach(&self) -> bool {
+        self.beyond > 0.0
     }
 }
 

@@ -12,18 +12,17 @@ pub(super) fn write(document: &mut Document, numbers: Numbers<'_>) {
         None => {
             let root = study.chains[0].root_place;
             format!(
-                "in its rest pose, the root at ({}, {}, {}),",
+                "in its rest pose, with the root at ({}, {}, {}),",
                 root.x, root.y, root.z
             )
         }
         Some(frame) => format!("in frame {frame} of the motion"),
     };
     document.paragraph(format!(
-        "Inverse kinematics asks which joint rotations bring the end of a chain of joints to a place. This study \
-         compares {} on the figure of {}, which has {} and starts {start} in every run. It asks four things: how near \
-         does each solver come after how many iterations; what does the place of the target change, and what the \
-         choice of the chain; what does it cost, in time and in motion; and does the pose follow a target that moves \
-         without a jump.",
+        "Inverse kinematics asks which joint rotations bring the end of a chain of joints to a given place. This study \
+         compares {} on the figure of {}, which has {} and starts {start} in every run. It asks four questions. How near \
+         does each solver come, and after how many iterations? What do the place of the target and the choice of the chain \
+         change? What does it cost, in time and in motion? And does the pose follow a moving target without jumping?",
         counted(study.methods.len(), "solver"),
         code(&study.input),
         counted(study.skeleton.joint_count(), "joint"),
@@ -31,13 +30,13 @@ pub(super) fn write(document: &mut Document, numbers: Numbers<'_>) {
     let shot = document.shot(Shot::Start(0));
     let chain = &study.chains[0];
     let grid = if study.grid > 0 {
-        ", the smaller balls the targets of the grid"
+        ", the smaller balls are the targets of the grid"
     } else {
         ""
     };
     document.blocks.push(Block::Pictures(PictureTable {
         caption: format!(
-            "Where it starts. The chain {} is blue; the red balls with names are the targets that were named{grid}.",
+            "The start. The chain {} is blue; the red balls with names are the named targets{grid}.",
             code(&chain.name)
         ),
         columns: Vec::new(),
@@ -56,11 +55,11 @@ pub(super) fn write(document: &mut Document, numbers: Numbers<'_>) {
         let joints: Vec<String> = chain.turning.iter().map(name).collect();
         let way = if chain.climbs() {
             format!(
-                "climbs to {} and goes down; the start stays, the root moves",
+                "up to {}, then down; the start stays in place and the root moves",
                 name(&chain.chain.top())
             )
         } else {
-            "goes down; the start stays".to_owned()
+            "down; the start stays in place".to_owned()
         };
         vec![
             Entry::new(code(&chain.name)),
@@ -72,8 +71,8 @@ pub(super) fn write(document: &mut Document, numbers: Numbers<'_>) {
     });
     let rows = rows.collect();
     document.blocks.push(Block::Table(Table {
-        caption: "The chains. The reach is the distance to which the end gets from the first joint that turns when \
-                  all bones lie in line; lengths are in the file's unit."
+        caption: "The chains. The reach is how far the end gets from the first joint that turns when all bones lie in \
+                  line. Lengths are in the file's unit."
             .to_owned(),
         columns: ["chain", "joints that turn", "way", "reach", "tolerance"].map(str::to_owned).to_vec(),
         is_text: true,
@@ -92,44 +91,40 @@ fn write_targets(document: &mut Document, numbers: Numbers<'_>) {
             .count()
     };
     let mut points = Vec::new();
-    for target in study.targets[0]
-        .iter()
-        .filter(|target| target.kind == Kind::Named)
-    {
+    let named = study.targets[0].iter().enumerate();
+    for (index, target) in named.filter(|(_, target)| target.kind == Kind::Named) {
         let place = target.place;
         let away = study.chains[0].base().distance(place) / study.chains[0].reach;
-        let out = if target.beyond > 0.0 {
-            ", which is out of reach"
-        } else {
-            ""
-        };
         points.push(format!(
-            "**{}** at ({}, {}, {}): {:.1} % of the reach of {} away from its base{out}.",
-            target.name,
+            "{} at ({}, {}, {}), named: {:.1} % of the reach of {} away from its base{}.",
+            code(&target.name),
             place.x,
             place.y,
             place.z,
             away * 100.0,
             code(&study.chains[0].name),
+            out_of_reach_words(numbers, index),
         ));
     }
     let grid = count(|kind| matches!(kind, Kind::Grid { .. }));
     if grid > 0 {
         let outside = study.targets[0]
             .iter()
-            .filter(|target| matches!(target.kind, Kind::Grid { .. }) && target.beyond > 0.0)
+            .filter(|target| matches!(target.kind, Kind::Grid { .. }) && target.is_out_of_reach())
             .count();
         points.push(format!(
-            "**A grid** of {side} by {side} targets on an upright plane through the first named target, as wide and \
-             high as 1.6 reaches of the first chain around its base; {outside} of them are out of its reach.",
+            "**A grid** of {side} by {side} targets on an upright plane through the first named target, centred on the base of the \
+             first chain and 1.6 of its reaches wide and high. {} of them {} out of its reach.",
+            if outside == 0 { "None".to_owned() } else { crate::text::grouped(outside) },
+            super::summary::agree(outside, "is", "are"),
             side = study.grid,
         ));
     }
     let reachable = count(|kind| kind == Kind::Reachable);
     if reachable > 0 {
         points.push(format!(
-            "**{} at random within reach** of each chain: where its end was after every joint had been turned by 0° to \
-             90° about an axis of any direction. So each of them can be reached (seed {}).",
+            "**{} at random within reach** of each chain: where its end is when every joint turns by 0° to 90° about an axis in \
+             any direction. So each of them can be reached (seed {}).",
             counted(reachable, "target"),
             study.seed,
         ));
@@ -142,21 +137,25 @@ fn write_targets(document: &mut Document, numbers: Numbers<'_>) {
         ));
     }
     document.blocks.push(Block::List(points));
+    document.paragraph(
+        "Targets out of reach count in no success: for them the report says apart how near the solvers come to the nearest \
+         place that there is.",
+    );
 }
 
-pub(super) fn write_command(document: &mut Document, numbers: Numbers<'_>, command: &str) {
-    document
-        .paragraph("This command writes this report again, with the same numbers and pictures:");
-    document.blocks.push(Block::Code(command.to_owned()));
-    let times = if numbers.study.has_times {
-        "Times, which differ from run to run, are in the tables of effort and in the CSV's last column only; with \
-         `--no-times` they are left out and all files are the same to the byte."
+/// For which chains a target is out of reach, and by how much.
+fn out_of_reach_words(numbers: Numbers<'_>, target: usize) -> String {
+    let study = numbers.study;
+    let lists = study.chains.iter().zip(&study.targets);
+    let out = lists.filter(|(_, list)| list[target].is_out_of_reach());
+    let out = out.map(|(chain, list)| {
+        let beyond = length(list[target].beyond, chain.reach);
+        format!("{} (by {beyond})", code(&chain.name))
+    });
+    let out: Vec<String> = out.collect();
+    if out.is_empty() {
+        String::new()
     } else {
-        "It was written with `--no-times`: all files are the same to the byte whenever it is run."
-    };
-    document.paragraph(format!(
-        "Beside the report lie all runs as CSV, a line each; this text as Markdown; and the poses of the named targets \
-         as a BVH file, whose frames the CSV's column `pose_frame` names. Forward kinematics of those poses gives the \
-         residuals of the CSV: `posekit fk` and three lines of NumPy check this report. {times}"
-    ));
+        format!("; **out of reach** of {}", super::listed(&out))
+    }
 }

@@ -1,80 +1,76 @@
 //! What it costs: iterations, time, motion.
 
 use super::super::document::{Block, Document, Entry, Table, code};
-use super::super::experiment::Cell;
+use super::super::experiment::Arrival;
 use super::super::statistics::{Quantiles, median};
-use super::{Numbers, counted, degrees, is_judged, judged_words, mark_best, micros};
+use super::{Numbers, counted, degrees, is_judged, judged_words, mark_best, micros, percent};
 
 pub(super) fn write(document: &mut Document, numbers: Numbers<'_>) {
     let study = numbers.study;
-    let is_judged = is_judged(study);
     let chain = &study.chains[0];
+    if arrivals(numbers, 0).next().is_none() {
+        return;
+    }
     document.section("Effort: iterations, motion, time");
     let mut rows: Vec<Vec<Entry>> = Vec::new();
     let mut keys: Vec<[Option<f64>; 4]> = Vec::new();
     for (method, solver) in study.methods.iter().enumerate() {
-        let needed: Vec<Option<u32>> = study.targets[0]
-            .iter()
-            .enumerate()
-            .filter(|(_, target)| is_judged(target))
-            .map(|(target, _)| first_count(numbers, method, target))
-            .collect();
-        // Half of the targets were reached with so many; none if fewer were.
-        let reached = needed
-            .iter()
-            .map(|count| count.map_or(f64::INFINITY, f64::from));
-        let middle = median(reached).filter(|count| count.is_finite());
-        let at = (0, method, study.shown);
-        let turned = Quantiles::of(numbers.over(at, is_judged).map(|run| run.motion_rad));
-        let shown_secs = median(numbers.over(at, is_judged).map(|run| run.secs));
-        let last_secs = median(
-            numbers
-                .over((0, method, numbers.last()), is_judged)
-                .map(|run| run.secs),
+        let reached =
+            super::share(arrivals(numbers, method).map(|arrival| arrival.iterations.is_some()));
+        // Those that were not reached are infinite, so that a median is only there if half of them were.
+        let middle = median(numbers.needed(0, method)).filter(|count| count.is_finite());
+        let turned = Quantiles::of(
+            arrivals(numbers, method)
+                .filter(|arrival| arrival.iterations.is_some())
+                .map(|arrival| arrival.motion_rad),
         );
-        let text = |value: Option<f64>, write: fn(f64) -> String| {
-            value.map_or_else(|| "–".to_owned(), write)
-        };
+        let secs = time_to_arrive(numbers, method);
+        let dash = || "–".to_owned();
         let mut row = vec![
             Entry::new(solver.name()),
-            Entry::new(middle.map_or_else(|| "not half".to_owned(), |count| format!("{count:.0}"))),
-            Entry::new(text(turned.map(|q| q.median), degrees)),
-            Entry::new(turned.map_or_else(String::new, |q| {
-                format!("{} to {}", degrees(q.low), degrees(q.high))
+            Entry::new(reached.map_or_else(dash, percent)),
+            Entry::new(middle.map_or_else(dash, |count| format!("{count:.0}"))),
+            Entry::new(turned.map_or_else(dash, |turned| degrees(turned.median))),
+            Entry::new(turned.map_or_else(dash, |turned| {
+                format!("{} to {}", degrees(turned.low), degrees(turned.high))
             })),
         ];
+        let each = time_of_iteration(numbers, method);
         if study.has_times {
-            row.push(Entry::new(text(shown_secs, micros)));
-            row.push(Entry::new(text(last_secs, micros)));
+            row.push(Entry::new(secs.map_or_else(dash, micros)));
+            row.push(Entry::new(each.map_or_else(dash, micros)));
         }
         rows.push(row);
-        keys.push([middle, turned.map(|q| q.median), shown_secs, last_secs]);
+        keys.push([reached, middle, secs, each]);
     }
-    let columns_of = [(1, 0), (2, 1), (4, 2), (5, 3)];
-    for (column, key) in columns_of {
+    // Joint motion is over the targets that each solver reached, which are not the same: nobody is best.
+    for (column, key, is_least) in [(1, 0, false), (2, 1, true), (5, 2, true), (6, 3, true)] {
         let values: Vec<_> = keys.iter().map(|keys| keys[key]).collect();
-        mark_best(&mut rows, column, &values, true);
+        mark_best(&mut rows, column, &values, is_least);
     }
-    let (shown, last) = (study.shown_count(), study.counts[numbers.last()]);
-    let mut columns = vec![
-        "solver".to_owned(),
-        "iterations".to_owned(),
-        "joint motion".to_owned(),
-        "10 to 90 %".to_owned(),
-    ];
+    let mut columns = [
+        "solver",
+        "reached",
+        "iterations",
+        "joint motion",
+        "10 to 90 %",
+    ]
+    .map(str::to_owned)
+    .to_vec();
     let mut times = "";
     if study.has_times {
-        columns.push(format!("time of {shown}"));
-        columns.push(format!("time of {last}"));
-        times = " The last columns are the median time of a call with so many iterations.";
+        columns.extend(["time", "an iteration"].map(str::to_owned));
+        times = "; the median time until then, and of one iteration";
     }
+    let last = counted(study.last_count() as usize, "iteration");
     document.blocks.push(Block::Table(Table {
         caption: format!(
-            "Effort on {} of {}: the fewest iterations of those tried with which half of the targets are reached; the \
-             median angle by which all joints together turned after {}, and that of all but the lowest and the highest tenth.{times}",
+            "Effort on {} of {}, when a solver stops as soon as the end is within the tolerance, or after {last}: the share that was \
+             reached; the median number of iterations until then; how much all joints together turned on the way to the targets that \
+             were reached, the median and the range without the lowest and the highest tenth{times}. A dash stands where fewer than \
+             half were reached.",
             judged_words(study),
             code(&chain.name),
-            counted(shown as usize, "iteration")
         ),
         columns,
         is_text: false,
@@ -82,24 +78,34 @@ pub(super) fn write(document: &mut Document, numbers: Numbers<'_>) {
     }));
     if study.has_times {
         document.paragraph(
-            "An iteration of one solver is not worth an iteration of another: CCD and FABRIK pass over the chain, the \
-             others solve for all joints at once, and a solver that comes to rest stops before its iterations are used \
-             up.",
+            "An iteration of one solver is not worth an iteration of another: CCD and FABRIK pass over the chain joint by joint, \
+             Two-bone is done in one step, and the others solve for all joints at once.",
         );
     }
 }
 
-/// The fewest iterations that reached a target.
-fn first_count(numbers: Numbers<'_>, method: usize, target: usize) -> Option<u32> {
-    let study = numbers.study;
-    let reached = (0..study.counts.len()).find(|&count| {
-        let cell = Cell {
-            chain: 0,
-            target,
-            method,
-            count,
-        };
-        numbers.results.run(cell).miss <= study.chains[0].tolerance
-    })?;
-    Some(study.counts[reached])
+/// How a solver came to the targets of the first chain by which solvers are judged.
+fn arrivals(numbers: Numbers<'_>, method: usize) -> impl Iterator<Item = &Arrival> {
+    let is_judged = is_judged(numbers.study);
+    let targets = numbers.study.targets[0].iter().enumerate();
+    targets
+        .filter(move |(_, target)| is_judged(target))
+        .map(move |(target, _)| numbers.results.arrival(0, target, method))
+}
+
+/// The median time to those targets, if it came to half of them.
+pub(super) fn time_to_arrive(numbers: Numbers<'_>, method: usize) -> Option<f64> {
+    let secs = arrivals(numbers, method).map(|arrival| match arrival.iterations {
+        Some(_) => arrival.secs,
+        None => f64::INFINITY,
+    });
+    median(secs).filter(|secs| secs.is_finite())
+}
+
+/// The median time of an iteration, in the runs with the most of them.
+fn time_of_iteration(numbers: Numbers<'_>, method: usize) -> Option<f64> {
+    let is_judged = is_judged(numbers.study);
+    let runs = numbers.over((0, method, numbers.last()), is_judged);
+    let runs = runs.filter(|run| run.iterations > 0);
+    median(runs.map(|run| run.secs / f64::from(run.iterations)))
 }

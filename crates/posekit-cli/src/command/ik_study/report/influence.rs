@@ -6,9 +6,10 @@ use super::super::document::{
 use super::super::experiment::Cell;
 use super::super::statistics::median;
 use super::super::targets::{Kind, Target};
-use super::iterations::reached_mark;
+use super::summary::agree;
 use super::{
-    Numbers, counted, is_judged, judged_words, length, mark_best, percent, roughly, scientific,
+    Numbers, capitalized, counted, is_judged, judged_words, length, mark_best, number,
+    outcome_mark, outcome_words, percent, roughly, scientific,
 };
 
 /// Rings around the base into which targets fall, as shares of the reach.
@@ -28,7 +29,10 @@ pub(super) fn write_place(document: &mut Document, numbers: Numbers<'_>) {
         let share = chain.base().distance(target.place) / chain.reach;
         RINGS
             .iter()
-            .position(|&(low, high, _)| target.beyond == 0.0 && (low..=high).contains(&share))
+            // Straight to the target, but for rounding.
+            .position(|&(low, high, _)| {
+                !target.is_out_of_reach() && (low..=high + 1e-9).contains(&share)
+            })
     };
     let mut columns: Vec<(String, Vec<bool>)> = Vec::new();
     for (index, &(_, _, name)) in RINGS.iter().enumerate() {
@@ -38,8 +42,6 @@ pub(super) fn write_place(document: &mut Document, numbers: Numbers<'_>) {
             .collect();
         columns.push((name.to_owned(), inside));
     }
-    let outside = study.targets[0].iter().map(|target| target.beyond > 0.0);
-    columns.push(("out of reach".to_owned(), outside.collect()));
     columns.retain(|(_, inside)| inside.iter().any(|&is_inside| is_inside));
     let shown = study.shown;
     let mut rows: Vec<Vec<Entry>> = study
@@ -79,13 +81,55 @@ pub(super) fn write_place(document: &mut Document, numbers: Numbers<'_>) {
     }
     document.blocks.push(Block::Table(Table {
         caption: format!(
-            "All targets of {} by their distance from its base, in brackets how many: the share that was reached after \
-             {}, and the median miss. Out of reach, reached means stretched out to within the tolerance of the nearest \
-             place there is.",
+            "All targets within reach of {} by their distance from its base (in brackets, how many): the share that was reached after \
+             {}, and the median residual.",
             code(&chain.name),
             counted(study.shown_count() as usize, "iteration")
         ),
         columns: titles,
+        is_text: false,
+        rows,
+    }));
+    out_of_reach_table(document, numbers);
+}
+
+/// How near solvers come where the target cannot be reached.
+fn out_of_reach_table(document: &mut Document, numbers: Numbers<'_>) {
+    let study = numbers.study;
+    let chain = &study.chains[0];
+    let count = study.targets[0]
+        .iter()
+        .filter(|target| target.is_out_of_reach())
+        .count();
+    if count == 0 {
+        return;
+    }
+    let mut keys = Vec::new();
+    let mut rows: Vec<Vec<Entry>> = Vec::new();
+    for (method, solver) in study.methods.iter().enumerate() {
+        let at = (0, method, study.shown);
+        let near = numbers.success(at, Target::is_out_of_reach);
+        let middle = numbers.median_miss(at, Target::is_out_of_reach);
+        rows.push(vec![
+            Entry::new(solver.name()),
+            Entry::new(near.map_or_else(String::new, percent)),
+            Entry::new(middle.map_or_else(String::new, scientific)),
+        ]);
+        keys.push((near, middle));
+    }
+    let near: Vec<_> = keys.iter().map(|keys| keys.0).collect();
+    let middle: Vec<_> = keys.iter().map(|keys| keys.1).collect();
+    mark_best(&mut rows, 1, &near, false);
+    mark_best(&mut rows, 2, &middle, true);
+    document.blocks.push(Block::Table(Table {
+        caption: format!(
+            "The {} out of reach of {}, which count in no success: the share for which the end came within the tolerance of the nearest \
+             place that there is after {}, and the median miss, which is how much farther from the target it stayed than it has to.",
+            counted(count, "target"),
+            code(&chain.name),
+            counted(study.shown_count() as usize, "iteration")
+        ),
+        columns: ["solver", "as near as can be", "median miss"].map(str::to_owned).to_vec(),
         is_text: false,
         rows,
     }));
@@ -99,7 +143,8 @@ fn picture_grid(document: &mut Document, numbers: Numbers<'_>) {
     let chain = &study.chains[0];
     let (method, solver) = (0, study.methods[0]);
     let mut rows = Vec::new();
-    let mut failures = Vec::new();
+    // Within reach and out of reach: how many, and how many of them the solver did all it could for.
+    let (mut within, mut outside) = ([0, 0], [0, 0]);
     for (target, of) in study.targets[0].iter().enumerate() {
         let Kind::Grid { column, .. } = of.kind else {
             continue;
@@ -117,15 +162,18 @@ fn picture_grid(document: &mut Document, numbers: Numbers<'_>) {
             count: study.shown,
         };
         let run = numbers.results.run(cell);
-        let is_reached = run.miss <= chain.tolerance;
-        if !is_reached {
-            failures.push(of.beyond > 0.0);
-        }
+        let tally = if of.is_out_of_reach() {
+            &mut outside
+        } else {
+            &mut within
+        };
+        tally[0] += 1;
+        tally[1] += usize::from(run.miss <= chain.tolerance);
         let mut lines = vec![Entry {
             text: scientific(run.residual),
-            mark: reached_mark(is_reached),
+            mark: outcome_mark(study, run),
         }];
-        lines.push(Entry::new(if of.beyond > 0.0 {
+        lines.push(Entry::new(if of.is_out_of_reach() {
             format!("{} out of reach", length(of.beyond, chain.reach))
         } else {
             format!("x = {}", length(of.place.x, chain.reach))
@@ -139,25 +187,35 @@ fn picture_grid(document: &mut Document, numbers: Numbers<'_>) {
             row.push(picture);
         }
     }
-    let out = failures.iter().filter(|&&is_out| is_out).count();
-    let (count, missed) = ((study.grid * study.grid) as usize, failures.len());
     document.blocks.push(Block::Pictures(PictureTable {
         caption: format!(
-            "{} of {} after {} at the targets of the grid, laid out as they lie in front of the figure; under each the \
-             residual, green where the target was reached as nearly as it can be.",
+            "{} with {} after {} at the targets of the grid, laid out as they lie in front of the figure; under each the residual, \
+             {}.",
             solver.name(),
             code(&chain.name),
-            counted(study.shown_count() as usize, "iteration")
+            counted(study.shown_count() as usize, "iteration"),
+            outcome_words(outside[0] > 0)
         ),
         columns: Vec::new(),
         rows,
     }));
+    let out = if outside[0] > 0 {
+        format!(
+            " {} of the grid {} out of reach; it comes as near as can be to {} of them.",
+            capitalized(&counted(outside[0], "target")),
+            agree(outside[0], "is", "are"),
+            number(outside[1])
+        )
+    } else {
+        String::new()
+    };
     document.paragraph(format!(
-        "Of {} of the grid {} came as near as can be to {} within {}; of those that it missed, {out} lie out of reach.",
-        counted(count, "target"),
-        solver.name(),
-        count - missed,
+        "In {} {} reaches {} of the {} of the grid that {} within reach.{out}",
         counted(study.shown_count() as usize, "iteration"),
+        solver.name(),
+        number(within[1]),
+        counted(within[0], "target"),
+        agree(within[0], "is", "are"),
     ));
 }
 
@@ -166,7 +224,9 @@ pub(super) fn write_chain(document: &mut Document, numbers: Numbers<'_>) {
     let is_judged = is_judged(study);
     document.section("The influence of the chain");
     if study.chains.len() == 1 {
-        document.paragraph("Only one chain was asked for; `--chain`, repeated, compares several.");
+        document.paragraph(
+            "There is only one chain in this study; `--chain`, repeated, compares several.",
+        );
     }
     let shown = study.shown;
     let mut rows: Vec<Vec<Entry>> = study
@@ -198,8 +258,8 @@ pub(super) fn write_chain(document: &mut Document, numbers: Numbers<'_>) {
     }
     document.blocks.push(Block::Table(Table {
         caption: format!(
-            "Each chain's {} after {}: the share that was reached; the median residual in percent of the reach; the \
-             median of the joint motion.",
+            "Each chain and its own {} after {}: the share that was reached; the median residual in percent of the chain's \
+             reach; the median joint motion.",
             judged_words(study),
             counted(study.shown_count() as usize, "iteration")
         ),
@@ -213,6 +273,7 @@ pub(super) fn write_chain(document: &mut Document, numbers: Numbers<'_>) {
 /// Chains by solvers, at the first target.
 fn picture_chains(document: &mut Document, numbers: Numbers<'_>) {
     let study = numbers.study;
+    let mut any_is_out = false;
     let mut rows = Vec::new();
     for (index, chain) in study.chains.iter().enumerate() {
         let mut row = Vec::new();
@@ -229,12 +290,13 @@ fn picture_chains(document: &mut Document, numbers: Numbers<'_>) {
                 alt: format!("{} with the chain {}", solver.name(), chain.name),
                 lines: vec![Entry {
                     text: scientific(run.residual),
-                    mark: reached_mark(run.miss <= chain.tolerance),
+                    mark: outcome_mark(study, run),
                 }],
             });
         }
         let beyond = study.targets[index][0].beyond;
         let out = if beyond > 0.0 {
+            any_is_out = true;
             format!(" ({} out of reach)", length(beyond, chain.reach))
         } else {
             String::new()
@@ -243,12 +305,16 @@ fn picture_chains(document: &mut Document, numbers: Numbers<'_>) {
     }
     document.blocks.push(Block::Pictures(PictureTable {
         caption: format!(
-            "The same target, {}, with each chain after {}; under each the residual, green where it is as small as it \
-             can be.",
+            "The same target, {}, with each chain after {}; under each the residual, {}.",
             code(&study.targets[0][0].name),
-            counted(study.shown_count() as usize, "iteration")
+            counted(study.shown_count() as usize, "iteration"),
+            outcome_words(any_is_out)
         ),
-        columns: study.methods.iter().map(|method| method.name().to_owned()).collect(),
+        columns: study
+            .methods
+            .iter()
+            .map(|method| method.name().to_owned())
+            .collect(),
         rows,
     }));
 }

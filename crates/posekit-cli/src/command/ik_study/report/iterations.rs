@@ -2,16 +2,14 @@
 
 use super::super::chart::{Axis, Chart, Panel, Series, draw};
 use super::super::document::{
-    Block, Document, Entry, Mark, PictureEntry, PictureTable, Shot, Table, code,
+    Block, Document, Entry, PictureEntry, PictureTable, Shot, Table, code,
 };
 use super::super::experiment::{Cell, Run};
 use super::super::targets::Kind;
 use super::{
-    Numbers, counted, is_judged, judged_words, listed, mark_best, percent, roughly, scientific,
+    Numbers, counted, is_judged, judged_words, listed, mark_best, outcome_mark, outcome_words,
+    percent, roughly, scientific,
 };
-
-/// Below this share of the reach, curves end: single precision, in which poses are kept, shows no less.
-const FLOOR_SHARE: f64 = 1e-8;
 
 pub(super) fn write_one_target(document: &mut Document, numbers: Numbers<'_>) {
     let study = numbers.study;
@@ -22,8 +20,8 @@ pub(super) fn write_one_target(document: &mut Document, numbers: Numbers<'_>) {
         }
     }
     document.paragraph(
-        "The bold number of a column is the smallest of it. The same runs as pictures show what the numbers do not: which \
-         joints a solver uses.",
+        "The bold number of a column is its smallest. Pictures of the same runs show what numbers do not: which joints a \
+         solver uses.",
     );
     picture_steps(document, numbers);
 }
@@ -31,7 +29,8 @@ pub(super) fn write_one_target(document: &mut Document, numbers: Numbers<'_>) {
 fn write_named(document: &mut Document, numbers: Numbers<'_>, target: usize) {
     let study = numbers.study;
     let chain = &study.chains[0];
-    let name = &study.targets[0][target].name;
+    let target_of = &study.targets[0][target];
+    let name = &target_of.name;
     let run = |method, count| -> &Run {
         numbers.results.run(Cell {
             chain: 0,
@@ -58,49 +57,21 @@ fn write_named(document: &mut Document, numbers: Numbers<'_>, target: usize) {
     columns.extend(study.counts.iter().map(u32::to_string));
     document.blocks.push(Block::Table(Table {
         caption: format!(
-            "Residual of {} at the target {} after so many iterations. Before the first it is {}.",
+            "Residual of {} at the target {} by the number of iterations. Before the first it is {}.{}",
             code(&chain.name),
             code(name),
-            scientific(before)
+            scientific(before),
+            if target_of.is_out_of_reach() {
+                format!(" The target is out of reach: no pose leaves less than {}.", scientific(target_of.beyond))
+            } else {
+                String::new()
+            }
         ),
         columns,
         is_text: false,
         rows,
-    }));
-    let shown = study.shown;
-    let mut order: Vec<usize> = (0..study.methods.len()).collect();
-    order.sort_by(|&a, &b| run(a, shown).residual.total_cmp(&run(b, shown).residual));
-    if let (Some(&best), Some(&worst)) = (order.first(), order.last()) {
-        let word = |method: usize| study.methods[method].name();
-        let rest = if order.len() > 1 {
-            format!(
-                ", {} is the farthest with {}",
-                word(worst),
-                scientific(run(worst, shown).residual)
-            )
-        } else {
-            String::new()
-        };
-        let at_target = order
-            .iter()
-            .filter(|&&method| run(method, shown).residual < super::ROUNDING);
-        let at_target: Vec<String> = at_target.map(|&method| word(method).to_owned()).collect();
-        let nearest = match at_target.len() {
-            0 | 1 => format!(
-                "{} is nearest with a residual of {}",
-                word(best),
-                scientific(run(best, shown).residual)
-            ),
-            _ => format!("{} are at the target but for rounding", listed(&at_target)),
-        };
-        document.paragraph(format!(
-            "After {} {nearest}{rest}. Within the tolerance of {} by then: {}.",
-            counted(study.shown_count() as usize, "iteration"),
-            scientific(chain.tolerance),
-            reached_names(numbers, target)
-        ));
-    }
-    let floor = FLOOR_SHARE * chain.reach;
+    }.fitted()));
+    document.paragraph(arrivals_sentence(numbers, target));
     let series = study
         .methods
         .iter()
@@ -122,7 +93,7 @@ fn write_named(document: &mut Document, numbers: Numbers<'_>, target: usize) {
     let svg = draw(&Chart {
         alt: format!("residual against iterations at the target {name}"),
         x: Axis::log_of("iterations", &study.counts),
-        y: Axis::powers_of_ten("residual", values.chain([chain.tolerance]), floor),
+        y: Axis::powers_of_ten("residual", values.chain([chain.tolerance]), super::ROUNDING),
         panels: vec![Panel {
             title: String::new(),
             series,
@@ -133,43 +104,83 @@ fn write_named(document: &mut Document, numbers: Numbers<'_>, target: usize) {
     document.blocks.push(Block::Drawing {
         svg,
         caption: format!(
-            "Residual at the target {} against iterations, both axes logarithmic. Curves end at {}: poses are kept in \
-             single precision, which shows no less.",
+            "Residual at the target {} against iterations, both axes logarithmic. Curves end at {:.0e}: rounding in double \
+             precision leaves no less.",
             code(name),
-            scientific(floor)
+            super::ROUNDING
         ),
     });
 }
 
-fn reached_names(numbers: Numbers<'_>, target: usize) -> String {
+/// How many iterations took each solver to a named target.
+fn arrivals_sentence(numbers: Numbers<'_>, target: usize) -> String {
     let study = numbers.study;
-    let reached = study.methods.iter().enumerate().filter(|&(method, _)| {
-        let cell = Cell {
-            chain: 0,
-            target,
-            method,
-            count: study.shown,
-        };
-        numbers.results.run(cell).miss <= study.chains[0].tolerance
-    });
-    let names: Vec<String> = reached
-        .map(|(_, method)| method.name().to_owned())
-        .collect();
-    if names.is_empty() {
-        "none".to_owned()
-    } else {
-        listed(&names)
+    let chain = &study.chains[0];
+    let methods = 0..study.methods.len();
+    if study.targets[0][target].is_out_of_reach() {
+        let nearest: Vec<String> = methods
+            .filter(|&method| {
+                let cell = Cell {
+                    chain: 0,
+                    target,
+                    method,
+                    count: numbers.last(),
+                };
+                numbers.results.run(cell).miss <= chain.tolerance
+            })
+            .map(|method| numbers.name(method))
+            .collect();
+        return format!(
+            "In {} as near as the target can be come to, within the tolerance of {}: {}.",
+            counted(study.last_count() as usize, "iteration"),
+            scientific(chain.tolerance),
+            if nearest.is_empty() {
+                "no solver".to_owned()
+            } else {
+                listed(&nearest)
+            }
+        );
     }
+    let arrival = |method| numbers.results.arrival(0, target, method).iterations;
+    let mut there: Vec<(u32, usize)> = methods
+        .clone()
+        .filter_map(|method| Some((arrival(method)?, method)))
+        .collect();
+    there.sort_unstable();
+    let never: Vec<String> = methods
+        .filter(|&method| arrival(method).is_none())
+        .map(|method| numbers.name(method))
+        .collect();
+    let each: Vec<String> = there
+        .iter()
+        .map(|&(count, method)| format!("{} after {count}", numbers.name(method)))
+        .collect();
+    let never = if never.is_empty() {
+        String::new()
+    } else {
+        let last = counted(study.last_count() as usize, "iteration");
+        format!("; not in {last}: {}", listed(&never))
+    };
+    format!(
+        "Iterations until the end is within the tolerance of {}: {}{never}.",
+        scientific(chain.tolerance),
+        if each.is_empty() {
+            "no solver gets there".to_owned()
+        } else {
+            listed(&each)
+        }
+    )
 }
 
 /// Solvers by counts, at the first target.
 fn picture_steps(document: &mut Document, numbers: Numbers<'_>) {
     let study = numbers.study;
     let chain = &study.chains[0];
+    let shown = pictured_counts(study.counts.len(), study.shown);
     let mut rows = Vec::new();
     for (method, solver) in study.methods.iter().enumerate() {
         let mut row = Vec::new();
-        for count in 0..study.counts.len() {
+        for &count in &shown {
             let cell = Cell {
                 chain: 0,
                 target: 0,
@@ -182,7 +193,7 @@ fn picture_steps(document: &mut Document, numbers: Numbers<'_>) {
                 alt: format!("{} after {} iterations", solver.name(), study.counts[count]),
                 lines: vec![Entry {
                     text: scientific(run.residual),
-                    mark: reached_mark(run.miss <= chain.tolerance),
+                    mark: outcome_mark(study, run),
                 }],
             });
         }
@@ -190,23 +201,33 @@ fn picture_steps(document: &mut Document, numbers: Numbers<'_>) {
     }
     document.blocks.push(Block::Pictures(PictureTable {
         caption: format!(
-            "The pose of {} after so many iterations towards {}; under each the residual, green where it is within the \
-             tolerance.",
+            "The pose of {} on its way to {}, by the number of iterations; under each the residual, {}.",
             code(&chain.name),
-            code(&study.targets[0][0].name)
+            code(&study.targets[0][0].name),
+            outcome_words(study.targets[0][0].is_out_of_reach())
         ),
-        columns: study
-            .counts
+        columns: shown
             .iter()
-            .map(|&count| crate::text::counted(count as usize, "iteration"))
+            .map(|&count| crate::text::counted(study.counts[count] as usize, "iteration"))
             .collect(),
         rows,
     }));
 }
 
-/// Green for what was reached, red for what was not.
-pub(super) fn reached_mark(is_reached: bool) -> Mark {
-    if is_reached { Mark::Good } else { Mark::Bad }
+/// Which of the numbers of iterations are pictured: all, or, of more than fit side by side, the first, the usual
+/// one, the last, and some between them.
+fn pictured_counts(count: usize, usual: usize) -> Vec<usize> {
+    const MOST: usize = 7;
+    if count <= MOST {
+        return (0..count).collect();
+    }
+    let mut chosen: Vec<usize> = (0..MOST - 1)
+        .map(|index| index * (count - 1) / (MOST - 2))
+        .chain([usual])
+        .collect();
+    chosen.sort_unstable();
+    chosen.dedup();
+    chosen
 }
 
 pub(super) fn write_many_targets(document: &mut Document, numbers: Numbers<'_>) {
@@ -222,13 +243,14 @@ pub(super) fn write_many_targets(document: &mut Document, numbers: Numbers<'_>) 
     }
     document.section("Many targets: the influence of the number of iterations");
     document.paragraph(format!(
-        "One target may suit a solver by chance. Over {} for {}, medians and tenths say more.",
-        counted(sample, "target") + " within reach",
+        "One target may suit a solver by chance. Medians and tenths over {} within reach of {} say more.",
+        counted(sample, "target"),
         code(&chain.name)
     ));
     success_table(document, numbers);
     quantile_table(document, numbers);
     quantile_panels(document, numbers);
+    loss_table(document, numbers);
 }
 
 fn success_table(document: &mut Document, numbers: Numbers<'_>) {
@@ -254,7 +276,7 @@ fn success_table(document: &mut Document, numbers: Numbers<'_>) {
     columns.extend(study.counts.iter().map(u32::to_string));
     document.blocks.push(Block::Table(Table {
         caption: format!(
-            "Success: the share of {} that {} reached within {} after so many iterations.",
+            "Success by the number of iterations: the share of {} to which the end of {} came within {}.",
             judged_words(study),
             code(&study.chains[0].name),
             scientific(study.chains[0].tolerance)
@@ -262,7 +284,7 @@ fn success_table(document: &mut Document, numbers: Numbers<'_>) {
         columns,
         is_text: false,
         rows,
-    }));
+    }.fitted()));
 }
 
 fn quantile_table(document: &mut Document, numbers: Numbers<'_>) {
@@ -285,19 +307,21 @@ fn quantile_table(document: &mut Document, numbers: Numbers<'_>) {
     }
     let mut columns = vec!["iterations".to_owned()];
     columns.extend(study.counts.iter().map(u32::to_string));
-    document.blocks.push(Block::Table(Table {
-        caption: "The median residual of the same runs.".to_owned(),
-        columns,
-        is_text: false,
-        rows,
-    }));
+    document.blocks.push(Block::Table(
+        Table {
+            caption: "The median residual of the same runs.".to_owned(),
+            columns,
+            is_text: false,
+            rows,
+        }
+        .fitted(),
+    ));
 }
 
 fn quantile_panels(document: &mut Document, numbers: Numbers<'_>) {
     let study = numbers.study;
     let chain = &study.chains[0];
     let is_judged = is_judged(study);
-    let floor = FLOOR_SHARE * chain.reach;
     let mut values = vec![chain.tolerance];
     let mut panels = Vec::new();
     for (method, solver) in study.methods.iter().enumerate() {
@@ -322,7 +346,7 @@ fn quantile_panels(document: &mut Document, numbers: Numbers<'_>) {
     let svg = draw(&Chart {
         alt: "residual against iterations, median and tenths, a panel for each solver".to_owned(),
         x: Axis::log_of("iterations", &study.counts),
-        y: Axis::powers_of_ten("residual", values, floor),
+        y: Axis::powers_of_ten("residual", values, super::ROUNDING),
         columns: panels.len().min(4),
         panels,
         bound: Some((chain.tolerance, "tolerance".to_owned())),
@@ -333,4 +357,93 @@ fn quantile_panels(document: &mut Document, numbers: Numbers<'_>) {
                   best and the worst tenth."
             .to_owned(),
     });
+}
+
+/// What more iterations made worse, over all targets of all chains.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Losses {
+    /// Targets that were within the tolerance after some number of iterations and not after a larger one.
+    pub(super) lost: usize,
+    /// Targets whose residual rose from one number of iterations to the next.
+    pub(super) rose: usize,
+    /// The largest such rise, as a share of the chain's reach.
+    largest_share: f64,
+}
+
+/// What more iterations made worse with a solver.
+pub(super) fn losses(numbers: Numbers<'_>, method: usize) -> Losses {
+    let study = numbers.study;
+    let mut losses = Losses::default();
+    for (chain, list) in study.targets.iter().enumerate() {
+        let of = &study.chains[chain];
+        for target in 0..list.len() {
+            let misses: Vec<f64> = (0..study.counts.len())
+                .map(|count| {
+                    let cell = Cell {
+                        chain,
+                        target,
+                        method,
+                        count,
+                    };
+                    numbers.results.run(cell).miss
+                })
+                .collect();
+            let first_near = misses.iter().position(|&miss| miss <= of.tolerance);
+            let is_lost = first_near
+                .is_some_and(|first| misses[first..].iter().any(|&miss| miss > of.tolerance));
+            let rises = misses.windows(2).map(|pair| pair[1] - pair[0]);
+            let rise = rises.fold(0.0, f64::max);
+            losses.lost += usize::from(is_lost);
+            if rise > super::ROUNDING {
+                losses.rose += 1;
+                losses.largest_share = losses.largest_share.max(rise / of.reach);
+            }
+        }
+    }
+    losses
+}
+
+fn loss_table(document: &mut Document, numbers: Numbers<'_>) {
+    let study = numbers.study;
+    if study.counts.len() < 2 {
+        return;
+    }
+    let all: usize = study.targets.iter().map(Vec::len).sum();
+    let rows = study.methods.iter().enumerate().map(|(method, solver)| {
+        let losses = losses(numbers, method);
+        vec![
+            Entry::new(solver.name()),
+            Entry::new(losses.lost.to_string()),
+            Entry::new(losses.rose.to_string()),
+            Entry::new(if losses.rose == 0 {
+                "–".to_owned()
+            } else {
+                format!("{:.1e} %", 100.0 * losses.largest_share)
+            }),
+        ]
+    });
+    let rows = rows.collect();
+    document.blocks.push(Block::Table(Table {
+        caption: format!(
+            "Do more iterations ever make it worse? Over the {} targets of all chains: at how many the end was within the tolerance \
+             after one number of iterations and not after a larger one; at how many the residual rose from one number to the \
+             next by more than rounding; and the largest such rise, in percent of the reach.",
+            crate::text::grouped(all)
+        ),
+        columns: ["solver", "targets lost again", "targets with a rise", "largest rise"].map(str::to_owned).to_vec(),
+        is_text: false,
+        rows,
+    }));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::pictured_counts;
+
+    #[test]
+    fn as_many_counts_are_pictured_as_fit() {
+        assert_eq!(pictured_counts(3, 1), [0, 1, 2]);
+        assert_eq!(pictured_counts(16, 10), [0, 3, 6, 9, 10, 12, 15]);
+        assert_eq!(pictured_counts(16, 15), [0, 3, 6, 9, 12, 15]);
+    }
 }

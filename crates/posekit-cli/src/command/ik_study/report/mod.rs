@@ -1,5 +1,6 @@
 //! The report's text, made from the numbers: what was asked, how, what came out, what it means.
 
+mod again;
 mod asked;
 mod effort;
 mod findings;
@@ -7,6 +8,8 @@ mod how;
 mod influence;
 mod iterations;
 mod moving;
+mod ranking;
+mod summary;
 mod worst;
 
 use super::document::{Document, Entry, Mark};
@@ -46,7 +49,7 @@ pub(super) fn compose(numbers: Numbers<'_>, command: &str) -> Document {
             grouped(numbers.results.all().len()),
             env!("CARGO_PKG_VERSION"),
         ),
-        summary: findings::summary(numbers),
+        summary: summary::write(numbers),
         blocks: Vec::new(),
         shots: Vec::new(),
     };
@@ -64,8 +67,9 @@ pub(super) fn compose(numbers: Numbers<'_>, command: &str) -> Document {
     worst::write(&mut document, numbers);
     document.chapter("What it means");
     findings::write(&mut document, numbers);
+    ranking::write(&mut document, numbers);
     document.chapter("To do it again");
-    asked::write_command(&mut document, numbers, command);
+    again::write(&mut document, numbers, command);
     document
 }
 
@@ -111,6 +115,30 @@ impl<'a> Numbers<'a> {
     fn last(self) -> usize {
         self.study.counts.len() - 1
     }
+
+    /// A solver's short name.
+    fn name(self, method: usize) -> String {
+        self.study.methods[method].name().to_owned()
+    }
+
+    /// How many iterations took a solver to the judged targets of a chain: of each in order, infinite where it
+    /// did not come to it.
+    fn needed(self, chain: usize, method: usize) -> impl Iterator<Item = f64> + 'a {
+        let is_judged = is_judged(self.study);
+        let targets = self.study.targets[chain].iter().enumerate();
+        targets
+            .filter(move |(_, target)| is_judged(target))
+            .map(move |(target, _)| {
+                let arrival = self.results.arrival(chain, target, method);
+                arrival.iterations.map_or(f64::INFINITY, f64::from)
+            })
+    }
+
+    /// Whether a solver never fell behind a moving target by more than so many tolerances.
+    fn keeps_up(self, following: &Following, tolerances: f64) -> bool {
+        let largest = following.misses.iter().copied().fold(0.0, f64::max);
+        largest <= tolerances * self.study.chains[0].tolerance
+    }
 }
 
 /// Whether a target is one of those that chains and solvers are judged by: random ones within reach, or,
@@ -125,7 +153,7 @@ fn is_judged(study: &Study) -> impl Fn(&Target) -> bool + Copy + use<> {
         if has_random {
             target.kind == Kind::Reachable
         } else {
-            target.beyond == 0.0
+            !target.is_out_of_reach()
         }
     }
 }
@@ -144,16 +172,53 @@ fn judged_words(study: &Study) -> &'static str {
     }
 }
 
-/// `one solver`, `seven solvers`, `24 targets`.
-fn counted(count: usize, noun: &str) -> String {
+/// `none`, `one`, `24`.
+fn number(count: usize) -> String {
     const WORDS: [&str; 10] = [
-        "no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine",
+        "none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine",
     ];
-    let number = WORDS
+    WORDS
         .get(count)
-        .map_or_else(|| grouped(count), |&word| word.to_owned());
+        .map_or_else(|| grouped(count), |&word| word.to_owned())
+}
+
+/// With a capital letter at its head.
+fn capitalized(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| {
+        first.to_uppercase().chain(letters).collect()
+    })
+}
+
+/// `no solver`, `one solver`, `seven solvers`, `24 targets`.
+fn counted(count: usize, noun: &str) -> String {
+    let number = match count {
+        0 => "no".to_owned(),
+        _ => number(count),
+    };
     let plural = if count == 1 { "" } else { "s" };
     format!("{number} {noun}{plural}")
+}
+
+/// How a run is marked: green where the target was reached, red where it was missed. Where it is out of reach,
+/// nothing marks a chain that came as near as can be.
+fn outcome_mark(study: &Study, run: &Run) -> Mark {
+    let is_nearest = run.miss <= study.chains[run.cell.chain].tolerance;
+    match (study.target(run.cell).is_out_of_reach(), is_nearest) {
+        (false, true) => Mark::Good,
+        (true, true) => Mark::None,
+        (_, false) => Mark::Bad,
+    }
+}
+
+/// What the marks of [`outcome_mark`] mean, for captions; the second part only where a target is out of reach.
+fn outcome_words(any_is_out: bool) -> &'static str {
+    if any_is_out {
+        "green where the target was reached, red where it was missed; black where it is out of reach and the chain came as \
+         near as it can"
+    } else {
+        "green where the target was reached, red where it was missed"
+    }
 }
 
 /// Lengths under this are what rounding in double precision leaves: no one of them is better than another.
@@ -254,6 +319,8 @@ mod tests {
         assert_eq!(percent(0.125), "12.5 %");
         assert_eq!(counted(1, "solver"), "one solver");
         assert_eq!(counted(1200, "run"), "1,200 runs");
+        assert_eq!(counted(0, "run"), "no runs");
+        assert_eq!(capitalized(&number(0)), "None");
         assert_eq!(micros(1.25e-6), "1.2 µs");
         let names = ["a", "b", "c"].map(str::to_owned);
         assert_eq!(listed(&names), "a, b and c");

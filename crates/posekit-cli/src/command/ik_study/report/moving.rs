@@ -14,9 +14,9 @@ pub(super) fn write(document: &mut Document, numbers: Numbers<'_>) {
     let chain = &study.chains[0];
     document.section("Targets that move");
     document.paragraph(format!(
-        "The end of {} follows a target for {FRAMES} frames, each frame solved with {} from the pose of the frame before. \
-         One target goes round a circle with a radius of 15 % of the reach, 75 % of the reach away; the other goes from \
-         60 % of the reach straight out to 115 %, where nobody can follow, and back. A small step of the target should \
+        "The end of {} follows a target for {FRAMES} frames; each frame is solved with {} from the pose of the frame before. \
+         One target goes round a circle, 75 % of the reach away and with a radius of 15 % of the reach. The other goes from \
+         60 % of the reach straight out to 115 %, where no pose can follow, and back. A small step of the target should \
          be a small step of every joint.",
         code(&chain.name),
         counted(study.shown_count() as usize, "iteration")
@@ -42,7 +42,7 @@ pub(super) fn write(document: &mut Document, numbers: Numbers<'_>) {
         )
     } else {
         format!(
-            "A joint turned by more than {} between two frames, which is seen as a jump, with {}.",
+            "A joint turned by more than {} from one frame to the next, which looks like a jump, with {}.",
             degrees(JUMP_RAD),
             super::listed(&jumps)
         )
@@ -100,8 +100,8 @@ fn write_table(document: &mut Document, numbers: Numbers<'_>, path: Path) {
     ];
     document.blocks.push(Block::Table(Table {
         caption: format!(
-            "The target that goes {}: how far the end stayed behind where it could have been, how much all joints turned in \
-             the whole course, the most that one joint turned from one frame to the next, and the roughness.",
+            "The target that goes {}: how much farther from it the end was than it has to be, how much all joints turned on the \
+             whole way, the most that one joint turned from one frame to the next, and the roughness.",
             match path {
                 Path::Circle => "round a circle",
                 Path::OutAndBack => "out of reach and back",
@@ -164,8 +164,8 @@ fn draw_steps(document: &mut Document, numbers: Numbers<'_>) {
     });
     document.blocks.push(Block::Drawing {
         svg,
-        caption: "The most that one joint turns from frame to frame: full line, round the circle; dashed, out of reach and \
-                  back (it is out of reach in the middle third). A flat line is a smooth motion, a peak is a jerk."
+        caption: "The most that one joint turns from frame to frame: the full line round the circle, the dashed line out of reach \
+                  and back (out of reach in the middle third). A flat line is a smooth motion, a peak is a jerk."
             .to_owned(),
     });
 }

@@ -20,7 +20,7 @@ pub(super) fn write(document: &mut Document, numbers: Numbers<'_>) {
             kept.push(solver.name().to_owned());
         }
         let target = &study.targets[cell.chain][cell.target];
-        let mark = super::iterations::reached_mark(run.miss <= chain.tolerance);
+        let mark = super::outcome_mark(study, run);
         row.push(PictureEntry {
             shot: document.shot(Shot::Run(cell)),
             alt: format!("the worst case of {}", solver.name()),
@@ -30,7 +30,11 @@ pub(super) fn write(document: &mut Document, numbers: Numbers<'_>) {
                     mark,
                 },
                 Entry {
-                    text: format!("{:.2} % of reach", share * 100.0),
+                    text: if share < 5e-5 {
+                        "< 0.01 % of reach".to_owned()
+                    } else {
+                        format!("{:.2} % of reach", share * 100.0)
+                    },
                     mark: Mark::None,
                 },
                 Entry::new(code(&chain.name)),
@@ -39,7 +43,7 @@ pub(super) fn write(document: &mut Document, numbers: Numbers<'_>) {
         });
     }
     if row.is_empty() {
-        document.paragraph("No target within reach was tried at random.");
+        document.paragraph("No target within reach was tried.");
         return;
     }
     let names = row
@@ -49,8 +53,8 @@ pub(super) fn write(document: &mut Document, numbers: Numbers<'_>) {
         .collect();
     document.blocks.push(Block::Pictures(PictureTable {
         caption: format!(
-            "Of each solver the run that is farthest from its target, measured by the reach of its chain, after {} on {} of \
-             all chains.",
+            "The worst run of each solver: the one that stays farthest from its target, measured by the reach of its chain, after {}, of \
+             all {} of all chains.",
             counted(study.counts[numbers.last()] as usize, "iteration"),
             judged_words(study)
         ),
@@ -58,9 +62,8 @@ pub(super) fn write(document: &mut Document, numbers: Numbers<'_>) {
         rows: vec![(String::new(), row)],
     }));
     if !kept.is_empty() {
-        let verb = if kept.len() == 1 { "misses" } else { "miss" };
         document.paragraph(format!(
-            "Even at their worst {} {verb} none of these targets.",
+            "Even in the worst case within the tolerance: {}.",
             super::listed(&kept)
         ));
     }
