@@ -87,19 +87,19 @@ fn target_sentence(numbers: Numbers<'_>, index: usize, target: &Target) -> Strin
             listed(&names)
         };
         let near = match near.len() {
-            0 => "no solver comes that near".to_owned(),
+            0 => "No solver comes within the tolerance of that".to_owned(),
             count => format!(
-                "{} {} as near as that",
+                "{} {} within the tolerance of that",
                 names(&near),
                 agree(count, "comes", "come")
             ),
         };
         let far = match far.len() {
             0 => String::new(),
-            count => format!(", {} {} not", names(&far), agree(count, "does", "do")),
+            count => format!("; {} {} not", names(&far), agree(count, "does", "do")),
         };
         return format!(
-            "{title}: out of reach, so no pose leaves less than {}. To within the tolerance, {near} in {after}{far}.",
+            "{title}: out of reach, so no pose leaves less than {}. {near} in {after}{far}.",
             scientific(target.beyond)
         );
     }
