@@ -84,6 +84,20 @@ pub(crate) enum Command {
     Man(command::man::ManArgs),
 }
 
+impl Cli {
+    /// Whether the command may ask a graphics driver to draw.
+    pub(crate) fn may_use_graphics(&self) -> bool {
+        match &self.command {
+            // The window, or a film.
+            None => true,
+            #[cfg(feature = "window")]
+            Some(Command::View(args)) => args.may_use_graphics(),
+            Some(Command::Render(args)) => args.may_use_graphics(),
+            Some(_) => false,
+        }
+    }
+}
+
 /// What draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum RendererArg {

@@ -22,6 +22,21 @@ pub(crate) struct Done<T> {
     pub(crate) value: T,
     /// Lines to show as warnings.
     pub(crate) warnings: Vec<String>,
+    /// Lines to show as notes, which need no action.
+    pub(crate) notes: Vec<String>,
+}
+
+/// What became of one thing that the user named.
+pub(crate) enum Outcome<'a, T> {
+    /// The work was done.
+    Done(&'a Input, T),
+    /// It could not be read, or the work on it could not be done.
+    Failed {
+        /// What messages call it.
+        name: &'a str,
+        /// Why.
+        failure: &'a Failure,
+    },
 }
 
 /// Works on every input with `work`, on several threads, and gives the results to `emit` in the
@@ -35,14 +50,33 @@ pub(crate) fn run<T: Send>(
     work: impl Fn(usize, &Input) -> Result<Done<T>, Failure> + Sync,
     mut emit: impl FnMut(&Input, T) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
+    run_telling(inputs, global, work, |outcome| match outcome {
+        Outcome::Done(input, value) => emit(input, value),
+        Outcome::Failed { .. } => Ok(()),
+    })
+}
+
+/// As [`run`], and `emit` is told of failures too: output for programs has a line for every input.
+pub(crate) fn run_telling<T: Send>(
+    inputs: Inputs,
+    global: &Global,
+    work: impl Fn(usize, &Input) -> Result<Done<T>, Failure> + Sync,
+    mut emit: impl FnMut(Outcome<'_, T>) -> Result<(), Failure>,
+) -> Result<(), Failure> {
     let Inputs { list, failures, .. } = inputs;
     let mut tally = Tally {
         total: list.len() + failures.len(),
         failed: Vec::new(),
     };
     let progress = Progress::new(list.len(), global.quiet);
-    for failure in failures {
-        progress.suspend(|| tally.add("", failure))?;
+    for (name, failure) in failures {
+        progress.suspend(|| {
+            emit(Outcome::Failed {
+                name: &name,
+                failure: &failure,
+            })?;
+            tally.add(&name, failure)
+        })?;
     }
     let workers = global.jobs.unwrap_or_else(jobs::default_workers);
     let mut result = Ok(());
@@ -57,10 +91,21 @@ pub(crate) fn run<T: Send>(
                 Ok(done) => {
                     if !global.quiet {
                         show_warnings(&done.warnings);
+                        done.notes.iter().for_each(|note| console::note(note));
                     }
-                    emit(input, done.value)
+                    emit(Outcome::Done(input, done.value))
                 }
-                Err(failure) => tally.add(&input.name(), failure),
+                Err(failure) => {
+                    let name = input.name();
+                    let told = match failure {
+                        Failure::ClosedPipe => Ok(()),
+                        _ => emit(Outcome::Failed {
+                            name: &name,
+                            failure: &failure,
+                        }),
+                    };
+                    told.and_then(|()| tally.add(&name, failure))
+                }
             });
             match outcome {
                 Ok(()) => ControlFlow::Continue(()),
@@ -111,11 +156,7 @@ impl Tally {
             return Err(failure);
         }
         console::error(&failure.to_string());
-        if !name.is_empty() {
-            self.failed.push(name.to_owned());
-        } else if let Some(first) = failure.to_string().split(':').next() {
-            self.failed.push(first.to_owned());
-        }
+        self.failed.push(name.to_owned());
         Ok(())
     }
 

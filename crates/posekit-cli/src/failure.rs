@@ -93,6 +93,14 @@ impl Failure {
         }
     }
 
+    /// The failure as output for programs has it: a line with an object of file and error.
+    pub(crate) fn json_line(&self, name: &str) -> String {
+        format!(
+            "{}\n",
+            serde_json::json!({ "file": name, "error": self.to_string() })
+        )
+    }
+
     /// The process's exit code for this failure.
     pub(crate) fn exit_code(&self) -> u8 {
         match self {

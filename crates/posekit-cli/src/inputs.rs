@@ -12,6 +12,7 @@ use walkdir::WalkDir;
 
 use crate::failure::Failure;
 use crate::sample::Sample;
+use crate::similar;
 
 /// Standard input's name on the command line.
 pub(crate) const STDIN: &str = "-";
@@ -43,8 +44,8 @@ pub(crate) enum Source {
 pub(crate) struct Inputs {
     /// What there is to read, in the order it was named; a folder's files by name.
     pub(crate) list: Vec<Input>,
-    /// What was named and is not there.
-    pub(crate) failures: Vec<Failure>,
+    /// What was named and is not there: the name, and why not.
+    pub(crate) failures: Vec<(String, Failure)>,
     /// Whether the user named a set (several names, a folder or a pattern), even a set of one:
     /// then results go to a folder and not to one file.
     pub(crate) is_set: bool,
@@ -97,7 +98,10 @@ pub(crate) fn expand(names: &[OsString]) -> Inputs {
         if let Some(sample) = text.and_then(|text| text.strip_prefix(SAMPLE_PREFIX)) {
             match Sample::named(sample) {
                 Some(sample) => inputs.list.push(Input::sample(sample)),
-                None => inputs.failures.push(unknown_sample(sample)),
+                None => {
+                    let name = format!("{SAMPLE_PREFIX}{sample}");
+                    inputs.failures.push((name, unknown_sample(sample)));
+                }
             }
             continue;
         }
@@ -122,8 +126,11 @@ pub(crate) fn expand(names: &[OsString]) -> Inputs {
 
 fn unknown_sample(name: &str) -> Failure {
     let known: Vec<_> = Sample::ALL.iter().map(|sample| sample.name()).collect();
-    Failure::usage(format!("there is no sample '{name}'"))
-        .try_next(format!("the samples are {}", known.join(", ")))
+    let failure = Failure::usage(format!("there is no sample '{name}'"));
+    match similar::nearest(name, known.iter().copied()) {
+        Some(meant) => failure.try_next(format!("did you mean {SAMPLE_PREFIX}{meant}")),
+        None => failure.try_next(format!("the samples are {}", known.join(", "))),
+    }
 }
 
 /// The same file named twice (`walk.bvh .`) is worked on once.
@@ -170,16 +177,16 @@ fn add_folder(folder: &Path, inputs: &mut Inputs) {
                 let dangling = fs::symlink_metadata(&path).is_ok_and(|meta| meta.is_symlink());
                 if !dangling || is_motion_file(&path) {
                     let error = std::io::Error::from(error);
-                    inputs.failures.push(Failure::cannot_read(&path, &error));
+                    let failure = Failure::cannot_read(&path, &error);
+                    inputs.failures.push((path.display().to_string(), failure));
                 }
             }
         }
     }
     if (inputs.list.len(), inputs.failures.len()) == before {
-        inputs.failures.push(Failure::new(format!(
-            "{}: no .bvh file in this folder or below it",
-            folder.display()
-        )));
+        let name = folder.display().to_string();
+        let failure = Failure::new(format!("{name}: no .bvh file in this folder or below it"));
+        inputs.failures.push((name, failure));
     }
 }
 
@@ -187,10 +194,8 @@ fn add_pattern(pattern: &str, inputs: &mut Inputs) {
     let matches = match glob::glob(pattern) {
         Ok(matches) => matches,
         Err(error) => {
-            inputs.failures.push(Failure::usage(format!(
-                "bad pattern '{pattern}': {}",
-                error.msg
-            )));
+            let failure = Failure::usage(format!("bad pattern '{pattern}': {}", error.msg));
+            inputs.failures.push((pattern.to_owned(), failure));
             return;
         }
     };
@@ -204,16 +209,15 @@ fn add_pattern(pattern: &str, inputs: &mut Inputs) {
                 inputs.list.push(Input::file(path, relative));
             }
             Err(error) => {
-                inputs
-                    .failures
-                    .push(Failure::cannot_read(error.path(), error.error()));
+                let failure = Failure::cannot_read(error.path(), error.error());
+                let name = error.path().display().to_string();
+                inputs.failures.push((name, failure));
             }
         }
     }
     if (inputs.list.len(), inputs.failures.len()) == before {
-        inputs
-            .failures
-            .push(Failure::new(format!("no file matches '{pattern}'")));
+        let failure = Failure::new(format!("no file matches '{pattern}'"));
+        inputs.failures.push((pattern.to_owned(), failure));
     }
 }
 
@@ -300,11 +304,13 @@ mod tests {
         assert_eq!((inputs.list.len(), inputs.failures.len()), (4, 2));
         assert!(
             inputs.failures[0]
+                .1
                 .to_string()
                 .starts_with("no file matches")
         );
         assert!(
             inputs.failures[1]
+                .1
                 .to_string()
                 .contains("walk, run, wave, arm")
         );

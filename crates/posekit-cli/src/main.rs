@@ -4,16 +4,20 @@ mod args;
 mod batch;
 mod command;
 mod console;
+mod extension;
 mod failure;
+mod graphics_env;
 mod inputs;
 mod jobs;
 mod load;
 mod output;
+mod program;
 mod progress;
 mod root_offset;
 mod sample;
 mod scene_file;
 mod select;
+mod similar;
 mod text;
 
 use std::process::ExitCode;
@@ -25,6 +29,9 @@ use failure::{EXIT_DONE, Failure};
 
 fn main() -> ExitCode {
     let cli = Cli::parse();
+    if cli.may_use_graphics() {
+        graphics_env::keep_quiet();
+    }
     console::set_color(cli.global.color);
     output::remove_unfinished_on_interrupt();
     let Some(command) = cli.command else {

@@ -7,6 +7,7 @@ use posekit::skeleton::{JointId, Skeleton};
 use posekit_formats::arrays::AttachedPoint;
 
 use crate::failure::Failure;
+use crate::similar;
 
 /// How many joint names an error lists before it refers to the tree.
 const NAMES_LISTED: usize = 12;
@@ -70,6 +71,22 @@ impl FromStr for FramePart {
 }
 
 impl FrameSelection {
+    /// What to say of ranges that reach past the end of a motion of `frame_count` frames, if any does.
+    pub(crate) fn past_the_end(&self, frame_count: usize) -> Option<String> {
+        let reaches_past = |part: &&FramePart| match **part {
+            FramePart::Range { start, end, .. } => {
+                start < frame_count && end.is_some_and(|end| end > frame_count)
+            }
+            FramePart::One(_) => false,
+        };
+        match self.parts.iter().find(reaches_past)? {
+            FramePart::Range { start, end, .. } => {
+                Some(range_past_the_end(*start, (*end)?, frame_count))
+            }
+            FramePart::One(_) => None,
+        }
+    }
+
     /// The selected frames of a motion of `frame_count` frames, in the order they were asked for.
     /// A range stops where the motion does; a single frame that does not exist is a failure, and so
     /// is a selection of nothing.
@@ -94,6 +111,11 @@ impl FrameSelection {
         }
         Ok(frames)
     }
+}
+
+/// What to say of a range of frames that reaches past the end.
+pub(crate) fn range_past_the_end(start: usize, end: usize, frame_count: usize) -> String {
+    format!("{start}..{end} reaches past the end and stops there: the frames are 0..{frame_count}")
 }
 
 /// The joints that a list of names and patterns selects, in the skeleton's order; all of them for
@@ -136,12 +158,8 @@ fn matching(skeleton: &Skeleton, text: &str) -> Result<Vec<JointId>, Failure> {
 
 fn no_such_joint(skeleton: &Skeleton, text: &str) -> Failure {
     let failure = Failure::new(format!("no joint is called '{text}'"));
-    let lower = text.to_lowercase();
-    let similar = skeleton
-        .joints()
-        .map(|joint| skeleton.unique_name(joint))
-        .find(|name| name.to_lowercase().contains(&lower) || lower == name.to_lowercase());
-    if let Some(name) = similar.filter(|_| !lower.is_empty()) {
+    let names = skeleton.joints().map(|joint| skeleton.unique_name(joint));
+    if let Some(name) = similar::nearest(text, names) {
         return failure.try_next(format!("did you mean '{name}'"));
     }
     let names: Vec<&str> = skeleton
@@ -233,6 +251,19 @@ mod tests {
         assert!(frames("0..", 0).is_err());
     }
 
+    #[test]
+    fn a_range_past_the_end_is_worth_a_note() {
+        let note =
+            |text: &str, count: usize| text.parse::<FrameSelection>().unwrap().past_the_end(count);
+        assert_eq!(
+            note("0..5,100..9999", 200).unwrap(),
+            "100..9999 reaches past the end and stops there: the frames are 0..200"
+        );
+        for text in ["0..200", "0..", "199", "7,0..200:5"] {
+            assert_eq!(note(text, 200), None, "{text}");
+        }
+    }
+
     fn skeleton() -> Skeleton {
         let mut builder = SkeletonBuilder::new();
         let hips = builder.joint("Hips", None, Vec3::ZERO);
@@ -256,6 +287,11 @@ mod tests {
             picked(&["leftleg"])
                 .unwrap_err()
                 .contains("did you mean 'LeftLeg'")
+        );
+        assert!(
+            picked(&["RihgtLeg"])
+                .unwrap_err()
+                .contains("did you mean 'RightLeg'")
         );
         assert!(
             picked(&["Tail"])

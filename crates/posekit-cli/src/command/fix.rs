@@ -8,8 +8,9 @@ use posekit_formats::bvh::{self, Change, FixConfig, NameRepair, WriteOptions, wr
 use serde_json::{Value, json};
 
 use crate::args::Global;
-use crate::batch::{self, Done};
+use crate::batch::{self, Done, Outcome};
 use crate::console::{self, DIM, HEADING, styled};
+use crate::extension;
 use crate::failure::{Failure, one_line};
 use crate::inputs;
 use crate::load;
@@ -52,6 +53,9 @@ Examples:
 pub(crate) fn run(args: &FixArgs, global: &Global) -> Result<(), Failure> {
     let inputs = inputs::expand(&args.files);
     let output = args.output.as_ref();
+    if let Some(output) = output {
+        extension::refuse_other(output, &["bvh"], extension::REDIRECT)?;
+    }
     let plan = output
         .map(|output| Plan::new(output, &inputs, "bvh"))
         .transpose()?;
@@ -70,7 +74,7 @@ pub(crate) fn run(args: &FixArgs, global: &Global) -> Result<(), Failure> {
         names,
         ..FixConfig::default()
     };
-    batch::run(
+    batch::run_telling(
         inputs,
         global,
         |index, input| {
@@ -99,9 +103,15 @@ pub(crate) fn run(args: &FixArgs, global: &Global) -> Result<(), Failure> {
             Ok(Done {
                 value,
                 warnings: Vec::new(),
+                notes: Vec::new(),
             })
         },
-        |_, text: String| {
+        |outcome: Outcome<'_, String>| {
+            let text = match outcome {
+                Outcome::Done(_, text) => text,
+                Outcome::Failed { name, failure } if args.json => failure.json_line(name),
+                Outcome::Failed { .. } => return Ok(()),
+            };
             if args.json {
                 let mut out = console::stdout();
                 out.write_all(text.as_bytes())?;

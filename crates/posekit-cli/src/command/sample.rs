@@ -6,10 +6,12 @@ use std::path::PathBuf;
 
 use clap::Args;
 use posekit_formats::bvh::{WriteOptions, write_to};
+use posekit_formats::scene;
 use posekit_formats::urdf;
 
 use crate::args::Global;
 use crate::console;
+use crate::extension;
 use crate::failure::Failure;
 use crate::inputs::{Input, Inputs, Source};
 use crate::output::{Destination, Plan, write_whole};
@@ -47,6 +49,11 @@ pub(crate) fn run(args: &SampleArgs, global: &Global) -> Result<(), Failure> {
     }
     let sample = Sample::named(&args.name)
         .ok_or_else(|| Failure::usage(format!("there is no sample '{}'", args.name)))?;
+    let known = [&["bvh"][..], &["bvh", scene::EXTENSION]];
+    let known = known[usize::from(sample.scene().is_some())];
+    if !scene_file::is_scene(std::path::Path::new(&args.output)) {
+        extension::refuse_other(&args.output, known, extension::REDIRECT)?;
+    }
     let inputs = Inputs {
         list: vec![Input::sample(sample)],
         ..Inputs::default()
@@ -86,6 +93,7 @@ pub(crate) fn run(args: &SampleArgs, global: &Global) -> Result<(), Failure> {
 
 /// Writes a robot's file.
 fn write_robot(args: &SampleArgs, global: &Global, name: &str, text: &str) -> Result<(), Failure> {
+    extension::refuse_other(&args.output, &["urdf"], extension::REDIRECT)?;
     let inputs = Inputs {
         list: vec![Input {
             // Nothing is read: only its name counts, where the output is a folder.

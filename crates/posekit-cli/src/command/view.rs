@@ -29,6 +29,14 @@ pub(crate) struct ViewArgs {
     renderer: RendererArg,
 }
 
+impl ViewArgs {
+    /// Whether a graphics driver may be asked to draw: wgpu shows the window whatever draws the figures.
+    #[allow(clippy::unused_self, reason = "as for the other commands")]
+    pub(crate) fn may_use_graphics(&self) -> bool {
+        true
+    }
+}
+
 const EXAMPLES: &str = "\
 Examples:
   posekit view                          a figure walks
@@ -93,7 +101,7 @@ fn options(names: &[OsString]) -> Result<ViewerOptions, Failure> {
             continue;
         }
         let found = inputs::expand(std::slice::from_ref(name));
-        if let Some(failure) = found.failures.into_iter().next() {
+        if let Some((_, failure)) = found.failures.into_iter().next() {
             return Err(failure);
         }
         for input in found.list {

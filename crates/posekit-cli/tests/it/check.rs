@@ -33,10 +33,7 @@ fn json_lines(text: &str) -> Vec<Value> {
 fn a_clean_file_has_nothing_suspicious() {
     let folder = Folder::with_arm();
     let report = folder.succeed(&["check", "sample:walk", "--min", "warning"]);
-    assert_eq!(
-        report.lines().next(),
-        Some("sample:walk: nothing suspicious above --min (1 below it)")
-    );
+    assert_eq!(report.lines().next(), Some("sample:walk: 1 info"));
     assert!(findings(&report).is_empty(), "{report}");
 }
 
@@ -67,10 +64,10 @@ fn findings_stand_with_the_worst_first_and_say_what_to_do_next() {
         .iter()
         .filter_map(|line| line.split_whitespace().next())
         .collect();
-    let wanted = ["error", "warning", "warning", "info", "info", "info"];
+    let wanted = ["error", "warning", "info", "info", "info", "info"];
     assert_eq!(severities, wanted, "{}", ran.stdout);
     let heading = ran.stdout.lines().next();
-    assert_eq!(heading, Some("bad.bvh: 1 error, 2 warnings, 3 infos"));
+    assert_eq!(heading, Some("bad.bvh: 1 error, 1 warning, 4 infos"));
     assert!(ran.stdout.contains("docs/check/CODE.md"), "{}", ran.stdout);
     assert!(
         ran.stdout.contains("posekit fix 'bad.bvh' -o fixed.bvh"),
@@ -89,14 +86,33 @@ fn several_files_have_a_summary() {
     let folder = Folder::with_arm();
     folder.write("in/clean.bvh", ARM.replace("Time: 0.5", "Time: 0.04"));
     folder.write("in/flip.bvh", flipping_arm());
-    let report = folder.succeed(&["check", "in", "--min", "warning"]);
-    let summary = report
+    let warned = ["check", "in", "--min", "warning", "--warn", "euler-flip"];
+    let report = folder.succeed(&warned);
+    let summary: Vec<&str> = report
         .lines()
-        .find(|line| line.starts_with("2 files checked:"));
+        .skip_while(|line| !line.starts_with("2 files checked:"))
+        .collect();
     assert!(
-        summary.unwrap().ends_with("; 1 with warnings or errors"),
+        summary[0].ends_with("; 1 with warnings or errors"),
         "{report}"
     );
+    let flips = summary[2].split_whitespace().collect::<Vec<_>>().join(" ");
+    let flip = std::path::Path::new("in").join("flip.bvh");
+    let wanted = format!(
+        "warning euler-flip 1 1 2 times in {}, frames 25 to 35",
+        flip.display()
+    );
+    assert_eq!(flips, wanted, "{report}");
+    let alone = folder.succeed(&["check", "in", "--summary", "--warn", "euler-flip"]);
+    assert_eq!(alone.lines().next(), Some(summary[0]));
+    assert!(!alone.contains("nothing suspicious"), "{alone}");
+    assert!(!alone.contains("docs/check"), "{alone}");
+    // Flips are information unless asked for, and only files with something worse are listed.
+    let report = folder.succeed(&["check", "in"]);
+    assert!(report.contains("; 0 with warnings or errors"), "{report}");
+    assert!(!report.contains("flip.bvh: "), "{report}");
+    let report = folder.succeed(&["check", "in", "--min", "info"]);
+    assert!(report.contains("flip.bvh: "), "{report}");
     let quiet = folder.succeed(&["check", "in", "--min", "warning", "--quiet"]);
     assert!(!quiet.contains("files checked"), "{quiet}");
 }
@@ -168,7 +184,7 @@ fn json_has_the_fields_of_the_guide() {
         found.unwrap_or_else(|| panic!("{code}: {findings:#?}"))
     };
     let flip = of_code("euler-flip");
-    assert_eq!(flip["severity"], "warning");
+    assert_eq!(flip["severity"], "info");
     assert_eq!(flip["joints"], serde_json::json!(["elbow"]));
     assert_eq!(
         flip["frames"],
@@ -180,6 +196,88 @@ fn json_has_the_fields_of_the_guide() {
     let count = of_code("frame-count-mismatch");
     assert_eq!(count["line"], 17);
     assert!(count["frames"].is_null());
+}
+
+#[test]
+fn the_worst_of_a_code_comes_first_and_information_takes_one_line() {
+    let folder = Folder::with_arm();
+    // Two joints that flip, the elbow once more often.
+    let mut text = flipping_arm().replace("0 20 0 40 0 0", "0 20 0 400 0 0");
+    text = text.replace("0 20 0 50 0 0", "0 20 0 410 0 0");
+    folder.write("flip.bvh", &text);
+    let report = folder.succeed(&["check", "flip.bvh", "--warn", "euler-flip"]);
+    let flips: Vec<&str> = report
+        .lines()
+        .filter(|line| line.contains("[euler-flip]"))
+        .collect();
+    assert_eq!(flips.len(), 2, "{report}");
+    assert!(flips[0].contains("base: "), "{report}");
+    assert!(flips[1].contains("elbow: "), "{report}");
+    let json = folder.succeed(&["check", "flip.bvh", "--summary", "--json"]);
+    let summary = &json_lines(&json)[0];
+    assert_eq!(summary["files"], 1);
+    let flips = summary["codes"].as_array().unwrap();
+    let flips = flips
+        .iter()
+        .find(|code| code["code"] == "euler-flip")
+        .unwrap();
+    assert_eq!(
+        (&flips["findings"], &flips["worst"]["value"]),
+        (&2.into(), &4.0.into())
+    );
+    assert_eq!(flips["worst"]["file"], "flip.bvh");
+}
+
+#[test]
+fn other_programs_are_judged_file_by_file() {
+    let folder = Folder::with_arm();
+    let report = folder.succeed(&[
+        "check",
+        "sample:walk",
+        "--for",
+        "three,blender,bvhio,assimp",
+    ]);
+    assert_eq!(report.lines().count(), 4, "{report}");
+    assert!(
+        report.lines().all(|line| line.ends_with("reads it right")),
+        "{report}"
+    );
+    // The arm's root has an OFFSET and position channels.
+    let ran = folder.run(&["check", "arm.bvh", "--for", "three"]);
+    assert_eq!(ran.code, Some(1));
+    assert_eq!(
+        ran.stderr,
+        "error: arm.bvh in three.js: not read right, as said above\n"
+    );
+    assert!(
+        ran.stdout
+            .contains("adds the OFFSET to the position channels (base)"),
+        "{}",
+        ran.stdout
+    );
+    assert!(
+        ran.stdout
+            .contains("posekit convert --for three sets the OFFSET of base to zero"),
+        "{}",
+        ran.stdout
+    );
+    folder.succeed(&["convert", "arm.bvh", "three.bvh", "--for", "three"]);
+    folder.succeed(&["check", "three.bvh", "--for", "three"]);
+    let positions =
+        |name: &str| folder.succeed(&["fk", name, "-o", "-", "--format", "csv", "--quiet"]);
+    assert_eq!(positions("arm.bvh"), positions("three.bvh"));
+    let ran = folder.run(&[
+        "check",
+        "--json",
+        "arm.bvh",
+        "missing.bvh",
+        "--for",
+        "three",
+    ]);
+    let lines = json_lines(&ran.stdout);
+    assert_eq!(lines[0]["readings"][0]["effect"], "misread");
+    assert_eq!(lines[1]["error"], "missing.bvh: no such file");
+    folder.fail(2, &["check", "arm.bvh", "--for", "maya"]);
 }
 
 #[test]

@@ -15,6 +15,32 @@ fn rows(text: &str) -> Vec<Vec<f64>> {
 }
 
 #[test]
+fn the_output_is_the_last_name_or_what_o_says_with_options_anywhere() {
+    let folder = Folder::with_arm();
+    for args in [
+        &["convert", "arm.bvh", "a.bvh", "--scale", "2"][..],
+        &["convert", "arm.bvh", "--scale", "2", "a.bvh"],
+        &["convert", "--scale", "2", "arm.bvh", "a.bvh"],
+        &["convert", "arm.bvh", "--scale", "2", "-o", "a.bvh"],
+        &["convert", "-o", "a.bvh", "--scale", "2", "arm.bvh"],
+        &["convert", "--output", "a.bvh", "arm.bvh", "--scale", "2"],
+    ] {
+        let ran = folder.run(args);
+        assert_eq!(
+            ran.stderr, "note: wrote a.bvh: 3 frames of 3 joints\n",
+            "{args:?}"
+        );
+        assert!(folder.read("a.bvh").contains("OFFSET 0 4 0"), "{args:?}");
+        std::fs::remove_file(folder.path().join("a.bvh")).unwrap();
+    }
+    let error = folder.fail(2, &["convert", "arm.bvh", "--scale", "2"]);
+    assert!(error.contains("where should the result go?"), "{error}");
+    folder.write("in/b.bvh", crate::harness::ARM);
+    folder.succeed(&["convert", "arm.bvh", "--scale", "2", "in", "out"]);
+    assert!(folder.exists("out/arm.bvh") && folder.exists("out/b.bvh"));
+}
+
+#[test]
 fn without_options_every_number_stays() {
     let folder = Folder::with_arm();
     folder.succeed(&["convert", "arm.bvh", "same.bvh"]);

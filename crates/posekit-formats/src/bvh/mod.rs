@@ -31,6 +31,7 @@ mod convert;
 mod decimal;
 mod document;
 pub mod edit;
+pub mod elsewhere;
 mod fix;
 mod from_motion;
 mod read;

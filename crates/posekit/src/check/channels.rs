@@ -130,24 +130,19 @@ impl Events {
         let count = self.frames.len();
         let jump_deg = self.jump_deg;
         let at = self.list();
-        let (severity, message) = match code {
-            FindingCode::EulerFlip => (
-                Severity::Warning,
-                format!(
-                    "{name}: channels jump by up to {jump_deg:.0} degrees and the joint does not, at {at}"
-                ),
+        let message = match code {
+            FindingCode::EulerFlip => format!(
+                "{name}: channels jump by up to {jump_deg:.0} degrees and the joint does not, at {at}"
             ),
-            _ => (
-                Severity::Info,
-                format!(
-                    "{name} passes near gimbal lock: channels race by up to {jump_deg:.0} degrees a \
-                     frame while it hardly turns, at {at}"
-                ),
+            _ => format!(
+                "{name} passes near gimbal lock: channels race by up to {jump_deg:.0} degrees a \
+                 frame while it hardly turns, at {at}"
             ),
         };
         Some(Finding {
             code,
-            severity,
+            // The rotations are right: only what is computed from the numbers between frames is not.
+            severity: Severity::Info,
             joints: vec![joint],
             frames: Some(FrameRange { first, last }),
             value: count as f64,

@@ -10,22 +10,29 @@ use posekit_formats::report::WarningCode;
 use serde_json::{Value, json};
 
 use crate::args::Global;
-use crate::batch::{self, Done};
+use crate::batch::{self, Done, Outcome};
 use crate::console;
 use crate::failure::Failure;
-use crate::inputs;
+use crate::inputs::{self, Input};
 use crate::load::{self, Subject};
+use crate::program::ProgramArg;
 use crate::root_offset::RootOffset;
+use crate::similar;
 use crate::text::counted;
 
+mod elsewhere;
+mod order;
 mod report;
+mod summary;
 
-use self::report::{Counts, Total};
+use self::report::Counts;
+use self::summary::Total;
 
 /// What is suspicious in a file: what its reader noticed, Euler flips, spikes, freezes, sliding feet
 ///
 /// Of a robot (URDF) it is what the reader noticed. Every finding has a code, and every code has a page in docs/check. The exit code is 1 when
-/// something is an error, or has a code that --deny names. Frames count from 0.
+/// something is an error, or has a code that --deny names. Euler flips are information, since the rotations are right: --warn euler-flip
+/// makes them warnings. Frames count from 0.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct CheckArgs {
@@ -35,13 +42,28 @@ pub(crate) struct CheckArgs {
     /// Take findings of this code as errors; may be repeated
     #[arg(long, value_name = "CODE", value_parser = known_code)]
     deny: Vec<String>,
-    /// Show only findings that are at least this serious
-    #[arg(long, value_name = "SEVERITY", default_value = "info")]
-    min: Minimum,
+    /// Take findings of this code as warnings; may be repeated
+    #[arg(long, value_name = "CODE", value_parser = known_code)]
+    warn: Vec<String>,
+    /// Show only findings that are at least this serious [default: info; of several files, for people, warning]
+    #[arg(long, value_name = "SEVERITY")]
+    min: Option<Minimum>,
     /// Whether a root's position channels replace its OFFSET or are added to it
     #[arg(long, value_name = "HOW", default_value = "replace")]
     root_offset: RootOffset,
-    /// One JSON object a file, each on a line of its own
+    /// Say whether these programs read the file as posekit does, and what convert --for would change; may be
+    /// repeated
+    #[arg(
+        long = "for",
+        value_name = "PROGRAM",
+        value_delimiter = ',',
+        conflicts_with_all = ["deny", "warn", "min", "summary", "root_offset"]
+    )]
+    programs: Vec<ProgramArg>,
+    /// Only the table that ends the output: a line for each code, the worst first
+    #[arg(long)]
+    summary: bool,
+    /// One JSON object a file, each on a line of its own; with --summary one for all
     #[arg(long)]
     json: bool,
 }
@@ -50,7 +72,9 @@ const EXAMPLES: &str = "\
 Examples:
   posekit check walk.bvh
   posekit check takes/ --min warning
+  posekit check takes/ --summary
   posekit check takes/ --deny euler-flip --deny teleport
+  posekit check walk.bvh --for blender,three
   posekit check --json takes/ | jq -r '.findings[] | .code' | sort | uniq -c";
 
 /// How serious a finding must be to be shown.
@@ -78,66 +102,83 @@ impl Minimum {
 fn known_code(code: &str) -> Result<String, String> {
     let findings = FindingCode::ALL.iter().map(|known| known.code());
     let warnings = WarningCode::ALL.iter().map(|known| known.code());
-    if findings.chain(warnings).any(|known| known == code) {
-        Ok(code.to_owned())
-    } else {
-        Err("no finding has this code; docs/check/README.md lists them".to_owned())
+    let mut known = findings.chain(warnings);
+    if known.clone().any(|known| known == code) {
+        return Ok(code.to_owned());
     }
+    Err(match similar::nearest(code, &mut known) {
+        Some(meant) => format!("no finding has this code; did you mean '{meant}'"),
+        None => "no finding has this code; docs/check/README.md lists them".to_owned(),
+    })
 }
 
 /// What came out for one file.
-struct Outcome {
-    text: String,
-    counts: Counts,
-    is_denied: bool,
+struct Checked {
+    entries: Vec<CheckEntry>,
+    /// Whether `posekit fix` repairs something of what is shown.
     is_fixable: bool,
 }
 
 /// Runs the command.
 pub(crate) fn run(args: &CheckArgs, global: &Global) -> Result<(), Failure> {
+    if !args.programs.is_empty() {
+        return elsewhere::run(args, global);
+    }
     let mut out = console::stdout();
     let mut denied = Vec::new();
     let mut total = Total::default();
-    let checked = batch::run(
-        inputs::expand(&args.files),
+    let inputs = inputs::expand(&args.files);
+    // Of many files people want to see those that something is wrong with.
+    let is_terse = inputs.is_set && args.min.is_none() && !args.json;
+    let default = if is_terse {
+        Minimum::Warning
+    } else {
+        Minimum::Info
+    };
+    let min = args.min.unwrap_or(default);
+    let result = batch::run_telling(
+        inputs,
         global,
         |_, input| {
-            let name = input.name();
-            let import = match load::load_subject(input, global)? {
-                Subject::Clip(import) => import,
-                Subject::Robot(import) => {
-                    let entries = bvh::reader_entries(&import.report);
-                    let mut outcome = outcome(args, &name, &entries);
-                    // `posekit fix` mends motion files.
-                    outcome.is_fixable = false;
-                    return Ok(Done {
-                        value: outcome,
-                        warnings: Vec::new(),
-                    });
-                }
-            };
-            let policy = args.root_offset.policy();
-            let config = CheckConfig::default();
-            let entries = bvh::check(&import.document, &import.report, policy, &config)
-                .map_err(|error| Failure::new(error.to_string()).in_file(&name))?;
+            let checked = check(args, min.severity(), input, global)?;
             Ok(Done {
-                value: outcome(args, &name, &entries),
+                value: checked,
                 warnings: Vec::new(),
+                notes: Vec::new(),
             })
         },
-        |input, outcome: Outcome| {
-            if outcome.is_denied {
-                denied.push(input.name());
+        |outcome| {
+            let (input, checked) = match outcome {
+                Outcome::Done(input, checked) => (input, checked),
+                Outcome::Failed { name, failure } => {
+                    total.add_failed();
+                    if args.json && !args.summary {
+                        out.write_all(failure.json_line(name).as_bytes())?;
+                    }
+                    return Ok(());
+                }
+            };
+            let name = input.name();
+            if checked.has(Severity::Error) {
+                denied.push(name.clone());
             }
-            total.add(&outcome, input.name());
-            Ok(out.write_all(outcome.text.as_bytes())?)
+            let is_listed = !is_terse || checked.has(min.severity());
+            if is_listed && !args.summary {
+                out.write_all(file_text(args, min, &name, &checked).as_bytes())?;
+            }
+            total.add(&name, checked);
+            Ok(())
         },
     );
-    if !args.json && !global.quiet {
-        out.write_all(total.text().as_bytes())?;
+    if args.summary && args.json {
+        writeln!(out, "{}", total.json())?;
+    } else if args.summary {
+        total.write_summary(&mut out)?;
+    } else if !args.json && !global.quiet {
+        total.write(&mut out)?;
     }
     out.flush()?;
-    checked?;
+    result?;
     match denied.as_slice() {
         [] => Ok(()),
         [name] => Err(Failure::new(format!(
@@ -151,48 +192,81 @@ pub(crate) fn run(args: &CheckArgs, global: &Global) -> Result<(), Failure> {
     }
 }
 
-fn outcome(args: &CheckArgs, name: &str, entries: &[CheckEntry]) -> Outcome {
-    let is_denied = |entry: &CheckEntry| {
-        entry.severity == Severity::Error || args.deny.iter().any(|code| code == entry.code)
+fn check(
+    args: &CheckArgs,
+    least: Severity,
+    input: &Input,
+    global: &Global,
+) -> Result<Checked, Failure> {
+    let name = input.name();
+    let subject = load::load_subject(input, global)?;
+    // `posekit fix` mends motion files.
+    let is_motion = matches!(subject, Subject::Clip(_));
+    let mut entries = match subject {
+        Subject::Robot(import) => bvh::reader_entries(&import.report),
+        Subject::Clip(import) => {
+            let policy = args.root_offset.policy();
+            let config = CheckConfig::default();
+            bvh::check(&import.document, &import.report, policy, &config)
+                .map_err(|error| Failure::new(error.to_string()).in_file(&name))?
+        }
     };
-    let shown: Vec<&CheckEntry> = entries
+    for entry in &mut entries {
+        if args.deny.iter().any(|code| code == entry.code) {
+            entry.severity = Severity::Error;
+        } else if args.warn.iter().any(|code| code == entry.code) {
+            entry.severity = entry.severity.max(Severity::Warning);
+        }
+    }
+    Ok(Checked {
+        is_fixable: is_motion
+            && entries
+                .iter()
+                .any(|entry| entry.severity >= least && report::is_fixable(entry)),
+        entries,
+    })
+}
+
+impl Checked {
+    /// Whether something is at least this serious.
+    fn has(&self, severity: Severity) -> bool {
+        self.entries.iter().any(|entry| entry.severity >= severity)
+    }
+}
+
+fn file_text(args: &CheckArgs, min: Minimum, name: &str, checked: &Checked) -> String {
+    let shown: Vec<&CheckEntry> = checked
+        .entries
         .iter()
-        .filter(|entry| entry.severity >= args.min.severity() || is_denied(entry))
+        .filter(|entry| entry.severity >= min.severity())
         .collect();
-    let text = if args.json {
+    if args.json {
         json_line(name, &shown)
     } else {
-        report::readable(name, &shown, entries.len() - shown.len())
-    };
-    Outcome {
-        text,
-        counts: Counts::of(entries),
-        is_denied: entries.iter().any(is_denied),
-        is_fixable: entries.iter().any(report::is_fixable),
+        report::readable(name, &shown, Counts::of(&checked.entries))
     }
 }
 
 fn json_line(name: &str, entries: &[&CheckEntry]) -> String {
-    let findings: Vec<Value> = entries
-        .iter()
-        .map(|entry| {
-            json!({
-                "code": entry.code,
-                "severity": entry.severity.name(),
-                "joints": entry.joints,
-                "frames": entry.frames.map(|frames| json!({
-                    "first": frames.first,
-                    "last": frames.last,
-                })),
-                "line": entry.location.map(|location| location.line),
-                "column": entry.location.map(|location| location.column),
-                "value": entry.value,
-                "unit": entry.unit.name(),
-                "share_of_height": entry.share_of_height,
-                "message": entry.message,
-                "page": format!("docs/check/{}.md", entry.code),
-            })
-        })
-        .collect();
+    let findings: Vec<Value> = entries.iter().map(|entry| finding_object(entry)).collect();
     format!("{}\n", json!({ "file": name, "findings": findings }))
+}
+
+fn finding_object(entry: &CheckEntry) -> Value {
+    json!({
+        "code": entry.code,
+        "severity": entry.severity.name(),
+        "joints": entry.joints,
+        "frames": entry.frames.map(|frames| json!({
+            "first": frames.first,
+            "last": frames.last,
+        })),
+        "line": entry.location.map(|location| location.line),
+        "column": entry.location.map(|location| location.column),
+        "value": entry.value,
+        "unit": entry.unit.name(),
+        "share_of_height": entry.share_of_height,
+        "message": entry.message,
+        "page": format!("docs/check/{}.md", entry.code),
+    })
 }

@@ -3,29 +3,47 @@
 use std::ops::Range;
 use std::str::FromStr;
 
-use posekit_formats::bvh::Bvh;
 use posekit_formats::bvh::edit::{self, ChannelSet, EditError};
+use posekit_formats::bvh::elsewhere;
+use posekit_formats::bvh::{Bvh, BvhJoint};
 
 use super::{Channels, ConvertArgs};
 use crate::failure::Failure;
+use crate::program::ProgramArg;
 use crate::text::{counted, trimmed};
+use crate::{select, similar};
 
-/// Applies the options and gives remarks about what could not be done in full.
+/// What to tell the user of a change that was made.
+#[derive(Debug, Default)]
+pub(super) struct Remarks {
+    /// What could not be done in full.
+    pub(super) warnings: Vec<String>,
+    /// What is worth knowing and needs no action.
+    pub(super) notes: Vec<String>,
+}
+
+/// Applies the options and says what there is to say about it.
 pub(super) fn apply(
     args: &ConvertArgs,
     model: Option<&Bvh>,
     bvh: &mut Bvh,
-) -> Result<Vec<String>, Failure> {
-    let mut remarks = Vec::new();
+) -> Result<Remarks, Failure> {
+    let mut remarks = Remarks::default();
     for Rename { from, to } in &args.rename {
-        edit::rename(bvh, from, to).map_err(refused)?;
+        edit::rename(bvh, from, to).map_err(|error| unknown_joint(error, from, bvh))?;
     }
     if let Some(model) = model {
         edit::reorder_like(bvh, model).map_err(refused)?;
     }
     if let Some(trim) = &args.trim {
         let range = trim.frames(bvh)?;
+        let (frame_count, start, end) = (bvh.frame_count(), range.start, range.end);
         edit::trim(bvh, range).map_err(refused)?;
+        if trim.end.is_some() && end > frame_count {
+            remarks
+                .notes
+                .push(select::range_past_the_end(start, end, frame_count));
+        }
     }
     if let Some(fps) = args.fps {
         edit::resample(bvh, fps).map_err(refused)?;
@@ -46,7 +64,7 @@ pub(super) fn apply(
     match args.channels {
         Some(Channels::Three) => {
             let kept = edit::set_channels(bvh, ChannelSet::RotationsAndMovingRoots);
-            remarks.extend(kept_remark(bvh, &kept));
+            remarks.warnings.extend(kept_remark(bvh, &kept));
         }
         Some(Channels::Six) => {
             edit::set_channels(bvh, ChannelSet::PositionsAndRotations);
@@ -55,6 +73,15 @@ pub(super) fn apply(
     }
     if let Some(order) = args.order {
         edit::set_rotation_order(bvh, order).map_err(refused)?;
+    }
+    if let Some(ProgramArg(program)) = args.program {
+        let changes = elsewhere::adapt(bvh, program)
+            .map_err(|obstacle| Failure::new(obstacle.to_string()))?;
+        let title = program.title();
+        let notes = changes
+            .into_iter()
+            .map(|change| format!("for {title}: {change}"));
+        remarks.notes.extend(notes);
     }
     Ok(remarks)
 }
@@ -67,6 +94,20 @@ fn kept_remark(bvh: &Bvh, kept: &[edit::KeptTranslation]) -> Option<String> {
     Some(format!(
         "{joints} kept position channels because they move, '{name}' by up to {range}"
     ))
+}
+
+/// With the near name, where an option names a joint that is not there.
+fn unknown_joint(error: EditError, typed: &str, bvh: &Bvh) -> Failure {
+    let names: Vec<_> = bvh.joints.iter().map(BvhJoint::name).collect();
+    match (
+        &error,
+        similar::nearest(typed, names.iter().map(AsRef::as_ref)),
+    ) {
+        (EditError::NoSuchJoint { .. }, Some(meant)) => {
+            Failure::new(error.to_string()).try_next(format!("did you mean '{meant}'"))
+        }
+        _ => refused(error),
+    }
 }
 
 /// What is wrong with the file against what is wrong with the option.

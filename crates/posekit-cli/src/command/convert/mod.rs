@@ -2,7 +2,7 @@
 
 mod change;
 
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -14,26 +14,34 @@ use posekit_formats::bvh::{Bvh, WriteOptions, write_to};
 use crate::args::Global;
 use crate::batch::{self, Done};
 use crate::console;
+use crate::extension;
 use crate::failure::Failure;
 use crate::inputs::{self, Input, STDIN, Source};
 use crate::load;
 use crate::output::{Destination, Plan, write_whole};
+use crate::program::ProgramArg;
 use crate::text::counted;
 use change::{Rename, Trim};
 
 /// BVH files to BVH files: another frame rate, part of the frames, another unit, axis or rotation order
 ///
 /// What no option touches stays as it was, to the digit. The options are applied in this order:
-/// rename, reorder-like, trim, fps, scale, up, channels, order.
+/// rename, reorder-like, trim, fps, scale, up, channels, order, for.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(
+    after_help = EXAMPLES,
+    override_usage = "posekit convert [OPTIONS] <IN>... <OUT>\n       posekit convert [OPTIONS] <IN>... --output <OUT>"
+)]
 pub(crate) struct ConvertArgs {
-    /// Files, folders, patterns, '-' or sample:NAME
+    /// Files, folders, patterns, '-' or sample:NAME; the last is the output, unless -o gives it
     #[arg(value_name = "IN", required = true)]
     files: Vec<OsString>,
     /// The new file; a folder for many inputs, a pattern with {stem} and {dir}, or '-'
-    #[arg(value_name = "OUT")]
-    output: OsString,
+    #[arg(long, short, value_name = "OUT")]
+    output: Option<OsString>,
+    /// What is written, whatever the output is called [default: by its extension]
+    #[arg(long, value_name = "FORMAT")]
+    format: Option<Format>,
     /// Frames a second; joints turn by slerp between old frames
     #[arg(long, value_name = "RATE")]
     fps: Option<f64>,
@@ -55,6 +63,9 @@ pub(crate) struct ConvertArgs {
     /// 3: positions on roots (and on joints that truly move) only; 6: positions and rotations on every joint
     #[arg(long, value_name = "3|6")]
     channels: Option<Channels>,
+    /// What this program would refuse or read wrong is changed; see posekit check --for
+    #[arg(long = "for", value_name = "PROGRAM")]
+    program: Option<ProgramArg>,
     /// Give joint A the name B; may be repeated
     #[arg(long, value_name = "A=B")]
     rename: Vec<Rename>,
@@ -68,9 +79,18 @@ Examples:
   posekit convert walk.bvh walk30.bvh --fps 30
   posekit convert walk.bvh step.bvh --trim 0.5s..1.7s
   posekit convert takes/ metres/ --scale 0.01         a folder, its sub-folders mirrored
-  posekit convert walk.bvh blender.bvh --up z --order XYZ
+  posekit convert walk.bvh --fps 30 -o walk30.bvh     the output first or last, as you like
+  posekit convert walk.bvh zup.bvh --up z --order XYZ
+  posekit convert walk.bvh page.bvh --for three
   posekit convert a.bvh b.bvh --rename Hips=pelvis --rename Spine=spine_01
   posekit convert push.bvh same.bvh --reorder-like walk.bvh";
+
+/// What can be written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// Biovision hierarchy, .bvh
+    Bvh,
+}
 
 /// An axis that may point up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -108,9 +128,13 @@ pub(crate) fn run(args: &ConvertArgs, global: &Global) -> Result<(), Failure> {
         .as_deref()
         .map(|path| load_model(path, global))
         .transpose()?;
-    let inputs = inputs::expand(&args.files);
+    let (files, output) = args.inputs_and_output()?;
+    if args.format.is_none() {
+        extension::refuse_other(output, &["bvh"], "--format bvh writes it all the same")?;
+    }
+    let inputs = inputs::expand(files);
     let is_set = inputs.is_set;
-    let plan = Plan::new(&args.output, &inputs, "bvh")?;
+    let plan = Plan::new(output, &inputs, "bvh")?;
     let mut written_count = 0;
     let result = batch::run(
         inputs,
@@ -118,7 +142,7 @@ pub(crate) fn run(args: &ConvertArgs, global: &Global) -> Result<(), Failure> {
         |index, input| convert(args, model.as_ref(), input, plan.destination(index), global),
         |_, announcement: String| {
             written_count += 1;
-            if !is_set && !global.quiet && args.output != STDIN {
+            if !is_set && !global.quiet && output != STDIN {
                 console::note(&announcement);
             }
             Ok(())
@@ -126,12 +150,23 @@ pub(crate) fn run(args: &ConvertArgs, global: &Global) -> Result<(), Failure> {
     );
     if is_set && written_count > 0 && !global.quiet {
         let files = counted(written_count, "file");
-        console::note(&format!(
-            "wrote {files} to {}",
-            Path::new(&args.output).display()
-        ));
+        console::note(&format!("wrote {files} to {}", Path::new(output).display()));
     }
     result
+}
+
+impl ConvertArgs {
+    /// What is read, and where it goes: the place that -o names, or the last of the names.
+    fn inputs_and_output(&self) -> Result<(&[OsString], &OsStr), Failure> {
+        if let Some(output) = &self.output {
+            return Ok((&self.files, output));
+        }
+        match self.files.split_last() {
+            Some((output, files)) if !files.is_empty() => Ok((files, output)),
+            _ => Err(Failure::usage("where should the result go?")
+                .try_next("name it after the input, or with -o")),
+        }
+    }
 }
 
 fn load_model(path: &Path, global: &Global) -> Result<Bvh, Failure> {
@@ -164,15 +199,14 @@ fn convert(
     let mut warnings = loaded.repairs(input);
     let mut bvh = loaded.bvh;
     let remarks = change::apply(args, model, &mut bvh).map_err(|failure| failure.in_file(&name))?;
-    warnings.extend(
-        remarks
-            .into_iter()
-            .map(|remark| format!("{name}: {remark}")),
-    );
+    let named = |remark: String| format!("{name}: {remark}");
+    warnings.extend(remarks.warnings.into_iter().map(named));
+    let notes = remarks.notes.into_iter().map(named).collect();
     let announcement = write(&bvh, destination)?;
     Ok(Done {
         value: announcement,
         warnings,
+        notes,
     })
 }
 

@@ -127,11 +127,12 @@ fn run_export(
         inputs,
         global,
         |index, input| {
-            let (selection, warnings) = select_from(args, input, global)?;
+            let (selection, warnings, notes) = select_from(args, input, global)?;
             let written = export::write(&selection.arrays(), format, plan.destination(index))?;
             Ok(Done {
                 value: Report::Written(written),
                 warnings,
+                notes,
             })
         },
         |_, report| {
@@ -159,11 +160,12 @@ fn run_summary(args: &FkArgs, inputs: Inputs, global: &Global) -> Result<(), Fai
         inputs,
         global,
         |_, input| {
-            let (selection, warnings) = select_from(args, input, global)?;
+            let (selection, warnings, notes) = select_from(args, input, global)?;
             let summary = summary::Summary::of(&selection.arrays(), input.name());
             Ok(Done {
                 value: Report::Summary(Box::new(summary)),
                 warnings,
+                notes,
             })
         },
         |_, report| {
@@ -201,11 +203,12 @@ impl Selection {
     }
 }
 
+/// What was asked for of an input, with warnings and notes to show.
 fn select_from(
     args: &FkArgs,
     input: &Input,
     global: &Global,
-) -> Result<(Selection, Vec<String>), Failure> {
+) -> Result<(Selection, Vec<String>, Vec<String>), Failure> {
     let name = input.name();
     let loaded = load::load(input, global)?;
     let warnings = loaded.repairs(input);
@@ -214,8 +217,13 @@ fn select_from(
         .map_err(|failure| failure.in_file(&name))?;
     // A long file's channel values would double the memory that forward kinematics takes.
     drop(loaded);
+    let past_the_end = args
+        .frames
+        .as_ref()
+        .and_then(|frames| frames.past_the_end(motion.frame_count()));
+    let notes = past_the_end.map(|note| format!("{name}: {note}"));
     let selection = select(args, motion).map_err(|failure| failure.in_file(&name))?;
-    Ok((selection, warnings))
+    Ok((selection, warnings, notes.into_iter().collect()))
 }
 
 fn select(args: &FkArgs, motion: Motion) -> Result<Selection, Failure> {

@@ -19,6 +19,7 @@ use posekit_formats::bvh::{WriteOptions, write_to};
 
 use crate::args::Global;
 use crate::console;
+use crate::extension;
 use crate::failure::Failure;
 use crate::inputs::{self, Input};
 use crate::load;
@@ -122,6 +123,9 @@ pub(crate) fn run(args: &IkArgs, global: &Global) -> Result<(), Failure> {
     if inputs.is_set {
         return Err(Failure::usage("ik works on one file at a time"));
     }
+    if let Some(output) = &args.output {
+        extension::refuse_other(output, &["bvh"], extension::REDIRECT)?;
+    }
     let plan = args
         .output
         .as_ref()
@@ -144,11 +148,26 @@ pub(crate) fn run(args: &IkArgs, global: &Global) -> Result<(), Failure> {
         .transpose()?;
     let Some(input) = inputs.list.first() else {
         let mut failures = inputs.failures;
-        return Err(failures
-            .pop()
-            .unwrap_or_else(|| Failure::new("there is nothing to read")));
+        let (name, failure) = failures.pop().unwrap_or_else(|| {
+            let name = args.file.display().to_string();
+            (name, Failure::new("there is nothing to read"))
+        });
+        return tell(args, &name, Err(failure));
     };
-    work(args, input, plan.as_ref(), trace_format, global)
+    let result = work(args, input, plan.as_ref(), trace_format, global);
+    tell(args, &input.name(), result)
+}
+
+/// With `--json` a failure too is an object on standard output.
+fn tell(args: &IkArgs, name: &str, result: Result<(), Failure>) -> Result<(), Failure> {
+    if let Err(failure @ (Failure::CouldNot(_) | Failure::Usage(_))) = &result
+        && args.json
+    {
+        let mut out = console::stdout();
+        out.write_all(failure.json_line(name).as_bytes())?;
+        out.flush()?;
+    }
+    result
 }
 
 fn work(
@@ -169,7 +188,11 @@ fn work(
     }
     let mut figure = Figure::new(args, loaded).map_err(in_file)?;
     let goals = args.goals.attach(&figure, global).map_err(in_file)?;
-    let task = steps::Task::new(args, &figure, goals).map_err(in_file)?;
+    let mut notes = Vec::new();
+    let task = steps::Task::new(args, &figure, goals, &mut notes).map_err(in_file)?;
+    if !global.quiet {
+        notes.iter().for_each(|note| console::note(note));
+    }
     let results = task.run(&mut figure, global).map_err(in_file)?;
     if let (Some(format), Some(path)) = (trace_format, &args.trace) {
         let names = &figure.skeleton;

@@ -60,7 +60,12 @@ pub(super) struct Results {
 
 impl Task {
     /// Reads the options.
-    pub(super) fn new(args: &IkArgs, figure: &Figure, goals: Vec<Goal>) -> Result<Self, Failure> {
+    pub(super) fn new(
+        args: &IkArgs,
+        figure: &Figure,
+        goals: Vec<Goal>,
+        notes: &mut Vec<String>,
+    ) -> Result<Self, Failure> {
         let skeleton = &*figure.skeleton;
         let solver_name = args.solver.solver;
         let solver = args.solver.solver(skeleton)?;
@@ -92,7 +97,10 @@ impl Task {
         }
         let frame_count = figure.motion.frame_count();
         let mut frames = match &args.frames {
-            Some(selection) => selection.frames(frame_count)?,
+            Some(selection) => {
+                notes.extend(selection.past_the_end(frame_count));
+                selection.frames(frame_count)?
+            }
             None => (0..frame_count).collect(),
         };
         frames.sort_unstable();

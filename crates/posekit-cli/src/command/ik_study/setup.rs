@@ -104,7 +104,7 @@ pub(super) fn motion_of(skeleton: &Arc<Skeleton>, poses: &[LocalPose]) -> Motion
 /// Reads the input and settles everything that is studied.
 pub(super) fn study(args: &IkStudyArgs, global: &Global) -> Result<Study, Failure> {
     let inputs = inputs::expand(std::slice::from_ref(&args.file));
-    if let Some(failure) = inputs.failures.into_iter().next() {
+    if let Some((_, failure)) = inputs.failures.into_iter().next() {
         return Err(failure);
     }
     let [input] = inputs.list.as_slice() else {

@@ -16,6 +16,7 @@ use posekit_formats::bvh::{Bvh, WriteOptions, write_to};
 
 use crate::args::Global;
 use crate::console;
+use crate::extension;
 use crate::failure::Failure;
 use crate::inputs::{self, Input, Inputs};
 use crate::load;
@@ -88,8 +89,11 @@ fn method_arg(word: &str) -> Result<FillMethod, String> {
 
 /// Runs the command.
 pub(crate) fn run(args: &InbetweenArgs, global: &Global) -> Result<(), Failure> {
+    if let Some(output) = &args.output {
+        extension::refuse_other(output, &["bvh"], extension::REDIRECT)?;
+    }
     let inputs = inputs::expand(std::slice::from_ref(&args.file));
-    if let Some(failure) = inputs.failures.into_iter().next() {
+    if let Some((_, failure)) = inputs.failures.into_iter().next() {
         return Err(failure);
     }
     let [input] = inputs.list.as_slice() else {
@@ -106,7 +110,7 @@ pub(crate) fn run(args: &InbetweenArgs, global: &Global) -> Result<(), Failure> 
     }
     let orders = loaded.bvh.rotation_orders();
     let motion = loaded.motion(args.root_offset.policy()).map_err(in_file)?;
-    let plan = plan(args, &motion).map_err(in_file)?;
+    let plan = plan(args, &motion, global).map_err(in_file)?;
     let filled = |method: FillMethod| fill(&motion, &plan, |joint| method.of(joint, &orders));
     if let Some(output) = &args.output {
         let method = args.method[0];
@@ -133,13 +137,18 @@ pub(crate) fn run(args: &InbetweenArgs, global: &Global) -> Result<(), Failure> 
     }
 }
 
-fn plan(args: &InbetweenArgs, motion: &Motion) -> Result<FillPlan, Failure> {
+fn plan(args: &InbetweenArgs, motion: &Motion, global: &Global) -> Result<FillPlan, Failure> {
     let frames = motion.frame_count();
     if frames == 0 {
         return Err(Failure::new("has no frames"));
     }
     let plan = match (&args.at, args.keep) {
-        (Some(at), _) => FillPlan::at(at.frames(frames)?, frames),
+        (Some(at), _) => {
+            if let Some(note) = at.past_the_end(frames).filter(|_| !global.quiet) {
+                console::note(&note);
+            }
+            FillPlan::at(at.frames(frames)?, frames)
+        }
         (None, Some(n)) => FillPlan::every(n, frames),
         (None, None) => return Err(Failure::usage("say which frames are kept: --keep or --at")),
     };

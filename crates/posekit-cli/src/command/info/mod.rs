@@ -12,7 +12,7 @@ use std::io::Write;
 use clap::Args;
 
 use crate::args::Global;
-use crate::batch::{self, Done};
+use crate::batch::{self, Done, Outcome};
 use crate::console;
 use crate::failure::Failure;
 use crate::inputs;
@@ -52,7 +52,7 @@ pub(crate) fn run(args: &InfoArgs, global: &Global) -> Result<(), Failure> {
     let mut out = console::stdout();
     let flush_each = console::stdout_is_terminal();
     let mut is_first = true;
-    batch::run(
+    batch::run_telling(
         inputs::expand(&args.files),
         global,
         |_, input| {
@@ -70,6 +70,7 @@ pub(crate) fn run(args: &InfoArgs, global: &Global) -> Result<(), Failure> {
                     return Ok(Done {
                         value: how(&input.name(), &import, args.tree),
                         warnings: Vec::new(),
+                        notes: Vec::new(),
                     });
                 }
             };
@@ -83,9 +84,15 @@ pub(crate) fn run(args: &InfoArgs, global: &Global) -> Result<(), Failure> {
             Ok(Done {
                 value: text,
                 warnings: Vec::new(),
+                notes: Vec::new(),
             })
         },
-        |_, text| {
+        |outcome| {
+            let text = match outcome {
+                Outcome::Done(_, text) => text,
+                Outcome::Failed { name, failure } if args.json => failure.json_line(name),
+                Outcome::Failed { .. } => return Ok(()),
+            };
             if !is_first && !args.json {
                 writeln!(out)?;
             }

@@ -9,6 +9,7 @@ use posekit_formats::bvh::{Bvh, WriteOptions, write_to};
 
 use crate::args::Global;
 use crate::console;
+use crate::extension;
 use crate::failure::Failure;
 use crate::inputs::{Input, Inputs, Source};
 use crate::output::{Destination, Plan, write_whole};
@@ -45,6 +46,7 @@ pub(super) fn run(args: &BakeArgs, global: &Global) -> Result<(), Failure> {
     if !args.order.is_complete() {
         return Err(Failure::usage("--order takes three axes, as ZXY"));
     }
+    extension::refuse_other(&args.output, &["bvh"], extension::REDIRECT)?;
     let scene = scene_file::read(&args.file)?;
     if let Some(fps) = args.fps {
         let frames = (scene.range_secs[1] - scene.range_secs[0]) * fps;

@@ -11,6 +11,7 @@ use posekit_formats::scene::{self, EXTENSION, Scene, SkeletonSource};
 
 use crate::args::Global;
 use crate::console;
+use crate::extension;
 use crate::failure::Failure;
 use crate::inputs;
 use crate::load;
@@ -53,8 +54,9 @@ pub(super) fn run(args: &ReduceArgs, global: &Global) -> Result<(), Failure> {
     if args.euler.is_some_and(|order| !order.is_complete()) {
         return Err(Failure::usage("--euler takes three axes, as ZXY"));
     }
+    extension::refuse_other(&args.output, &[EXTENSION], extension::REDIRECT)?;
     let inputs = inputs::expand(std::slice::from_ref(&args.file));
-    if let Some(failure) = inputs.failures.into_iter().next() {
+    if let Some((_, failure)) = inputs.failures.into_iter().next() {
         return Err(failure);
     }
     let [input] = inputs.list.as_slice() else {

@@ -102,6 +102,13 @@ pub(crate) struct RenderArgs {
     pub(super) renderer: RendererArg,
 }
 
+impl RenderArgs {
+    /// Whether a graphics driver may be asked to draw.
+    pub(crate) fn may_use_graphics(&self) -> bool {
+        self.renderer != RendererArg::Cpu
+    }
+}
+
 const EXAMPLES: &str = "\
 Examples:
   posekit render walk.bvh -o walk.mp4                       a film

@@ -52,6 +52,7 @@ pub(crate) fn run(args: &RenderArgs, global: &Global) -> Result<(), Failure> {
             Ok(Done {
                 value: announcement,
                 warnings: shot.warnings,
+                notes: shot.notes,
             })
         },
         |_, announcement: String| {

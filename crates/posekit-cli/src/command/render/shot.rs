@@ -49,6 +49,8 @@ pub(super) struct Shot {
     pub(super) times_secs: Vec<f64>,
     /// What the reader repaired, and what else the user should know.
     pub(super) warnings: Vec<String>,
+    /// What is worth knowing and needs no action.
+    pub(super) notes: Vec<String>,
 }
 
 impl Shot {
@@ -82,7 +84,7 @@ pub(super) fn companions(args: &RenderArgs, global: &Global) -> Result<Vec<Arc<M
 
 fn named_motions(name: &OsString, global: &Global) -> Result<Vec<Arc<Motion>>, Failure> {
     let inputs = inputs::expand(std::slice::from_ref(name));
-    if let Some(failure) = inputs.failures.into_iter().next() {
+    if let Some((_, failure)) = inputs.failures.into_iter().next() {
         return Err(failure);
     }
     let motions = inputs.list.iter().map(|input| {
@@ -138,6 +140,11 @@ pub(super) fn prepare(
         .unwrap_or_else(|| default_rate(product, motion.frame_time_secs()));
     let longest = companions.iter().map(|motion| motion.duration_secs());
     let end_secs = longest.fold(motion.duration_secs(), f64::max);
+    let past_the_end = args
+        .frames
+        .as_ref()
+        .and_then(|frames| frames.past_the_end(motion.frame_count()));
+    let notes = past_the_end.map(|note| format!("{name}: {note}"));
     let times_secs = times(args, product, &motion, end_secs, frames_per_sec).map_err(in_file)?;
     let mut options = options(args, &motion, companions).map_err(in_file)?;
     let style = options.style;
@@ -163,6 +170,7 @@ pub(super) fn prepare(
         frames_per_sec,
         times_secs,
         warnings,
+        notes: notes.into_iter().collect(),
     })
 }
 

@@ -28,7 +28,7 @@ pub(super) fn rotation_of(row: &[f64], columns: &[(usize, Axis)]) -> glam::DQuat
 
 /// Gives the joints other channels. `fill` makes each new row from the old one; it is called frame
 /// after frame.
-pub(super) fn lay_out(
+pub(in crate::bvh) fn lay_out(
     bvh: &mut Bvh,
     channels_of_joint: Vec<Vec<Channel>>,
     mut fill: impl FnMut(&[f64], &mut [f64]),

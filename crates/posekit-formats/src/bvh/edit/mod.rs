@@ -10,12 +10,12 @@
 
 mod axes;
 mod channel_set;
-mod columns;
+pub(super) mod columns;
 mod frames;
 mod joint_order;
 mod joint_transform;
 mod resample;
-mod rotation_order;
+pub(super) mod rotation_order;
 mod scale;
 #[cfg(test)]
 mod tests;

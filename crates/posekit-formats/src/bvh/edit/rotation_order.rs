@@ -5,7 +5,7 @@ use posekit::rotation::{Axis, EulerOrder};
 
 use super::EditError;
 use super::columns::{lay_out, rotation_columns, rotation_of, starts};
-use crate::bvh::Bvh;
+use crate::bvh::{Bvh, BvhJoint};
 
 /// Expresses every joint's rotation in `order`, the order in which its channels are then listed.
 ///
@@ -21,11 +21,27 @@ pub fn set_rotation_order(bvh: &mut Bvh, order: EulerOrder) -> Result<(), EditEr
     if axes != Axis::ALL {
         return Err(EditError::IncompleteOrder);
     }
+    set_rotation_order_of(bvh, order, |_| true);
+    Ok(())
+}
+
+/// As [`set_rotation_order`] with an order that names each axis once, of some joints.
+pub(in crate::bvh) fn set_rotation_order_of(
+    bvh: &mut Bvh,
+    order: EulerOrder,
+    is_meant: impl Fn(&BvhJoint) -> bool,
+) {
     let old_starts = bvh.column_starts();
     let channels: Vec<Vec<Channel>> = bvh
         .joints
         .iter()
-        .map(|joint| reordered(&joint.channels, order))
+        .map(|joint| {
+            if is_meant(joint) {
+                reordered(&joint.channels, order)
+            } else {
+                joint.channels.clone()
+            }
+        })
         .collect();
     let new_starts = starts(&channels);
     let mut joints = Vec::new();
@@ -46,7 +62,6 @@ pub fn set_rotation_order(bvh: &mut Bvh, order: EulerOrder) -> Result<(), EditEr
             joint.fill(order, old, new);
         }
     });
-    Ok(())
 }
 
 struct JointColumns {
