@@ -2,7 +2,7 @@
 //!
 //! Options and file become a [`setup::Study`]; [`experiment`] and [`moving`] run it; [`report`] says in a
 //! [`document::Document`] what came out; [`pictures`] takes the pictures that it refers to; [`html`] and
-//! [`markdown`] write it. All but times is the same for the same options, byte for byte.
+//! [`markdown`] write it, with the `posekit ik` commands of [`reproduce`]. All but times is the same for the same options, byte for byte.
 
 mod args;
 mod chart;
