@@ -48,6 +48,7 @@ mod limit;
 mod linkage;
 mod problem;
 mod pull;
+mod random;
 mod report;
 pub mod robot;
 mod solve;

@@ -65,7 +65,8 @@ pub struct StopRule {
     pub rest_tolerance: f64,
     /// A target's orientation counts as reached when it is this near.
     pub orientation_tolerance_rad: f64,
-    /// The most iterations.
+    /// The most iterations. A solver that comes to rest short of its targets and starts again elsewhere takes
+    /// more, some dozens from each start.
     pub max_iterations: u32,
 }
 

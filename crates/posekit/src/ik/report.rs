@@ -18,10 +18,12 @@ pub enum IkOutcome {
     /// The targets were not reached in the iterations that were allowed, and more may help.
     IterationLimit,
     /// The solver came to rest short of the targets with joints at their limits
-    /// ([`IkReport::joints_at_limit`]).
+    /// ([`IkReport::joints_at_limit`]), and the limits are to blame: starts from other poses within them did
+    /// not reach the targets either, and without limits they are reached.
     LimitsInTheWay,
     /// The solver came to rest short of the targets with no limit to blame: a pose from which every
-    /// small step leads away, or targets that contradict each other.
+    /// small step leads away, though another solver or another start may get there, or targets that
+    /// contradict each other.
     Stalled,
     /// A target holds a number that is not finite or no rotation; the pose was left as it was.
     InvalidTarget {
@@ -51,7 +53,7 @@ pub struct IkResidual {
 pub struct IkReport {
     /// Why the solver stopped.
     pub outcome: IkOutcome,
-    /// How many iterations were made.
+    /// How many iterations were made, from all starts together if a solver tried several.
     pub iterations: u32,
     /// How far each effector is from its target in the pose that was left, in the order of the targets.
     /// Empty if a target was invalid.

@@ -53,6 +53,8 @@ pub(crate) struct Progress {
     pub(crate) iterations: u32,
     /// Whether it came to rest: more iterations would change nothing.
     pub(crate) is_settled: bool,
+    /// Whether it tried other starts, none of which reached the targets if the result does not.
+    pub(crate) has_searched: bool,
     /// What was recorded.
     pub(crate) trace: Option<IkTrace>,
 }
@@ -92,6 +94,7 @@ impl Progress {
         Self {
             iterations: 1,
             is_settled: true,
+            has_searched: false,
             trace,
         }
     }
@@ -136,13 +139,12 @@ pub fn solve(
         }
     };
     write(skeleton, pose, workspace);
-    let linkage = &workspace.linkage;
-    let outcome = if *solver == Solver::Aim && aim::is_aimed(linkage, problem) {
+    let outcome = if *solver == Solver::Aim && aim::is_aimed(&workspace.linkage, problem) {
         IkOutcome::Reached
     } else {
-        judge(linkage, problem, &progress)
+        judge(skeleton, pose, problem, &progress, workspace)
     };
-    report(linkage, problem, outcome, progress)
+    report(&workspace.linkage, problem, outcome, progress)
 }
 
 /// Writes what moved to the pose.
@@ -242,7 +244,14 @@ pub(crate) fn is_out_of_reach(linkage: &Linkage, problem: &IkProblem) -> bool {
     most_out_of_reach(linkage, problem) > problem.stop.position_tolerance
 }
 
-fn judge(linkage: &Linkage, problem: &IkProblem, progress: &Progress) -> IkOutcome {
+fn judge(
+    skeleton: &Skeleton,
+    pose: &LocalPose,
+    problem: &IkProblem,
+    progress: &Progress,
+    workspace: &mut IkWorkspace,
+) -> IkOutcome {
+    let linkage = &workspace.linkage;
     if is_reached(linkage, problem) {
         return IkOutcome::Reached;
     }
@@ -255,10 +264,14 @@ fn judge(linkage: &Linkage, problem: &IkProblem, progress: &Progress) -> IkOutco
     }
     let mut at_limit = Vec::new();
     linkage.list_at_limit(AT_LIMIT, &mut at_limit);
-    if at_limit.is_empty() {
-        IkOutcome::Stalled
-    } else {
+    let has_searched = progress.has_searched;
+    let are_in_the_way = !at_limit.is_empty()
+        && is_short(linkage, problem)
+        && least_squares::are_limits_in_the_way(skeleton, pose, problem, has_searched, workspace);
+    if are_in_the_way {
         IkOutcome::LimitsInTheWay
+    } else {
+        IkOutcome::Stalled
     }
 }
 

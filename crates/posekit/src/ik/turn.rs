@@ -4,7 +4,7 @@ use core::f64::consts::PI;
 
 use glam::{DQuat, DVec3};
 
-use super::linkage::{Linkage, NONE};
+use super::linkage::{Effector, Linkage, NONE};
 use super::problem::IkProblem;
 use crate::rotation::{exp, slerp};
 
@@ -13,6 +13,10 @@ const OPPOSITE: f64 = 1e-15;
 
 /// Vectors shorter than this have no direction that would mean anything.
 const SHORTEST_SQ: f64 = 1e-60;
+
+/// In how many ways a chain that is stuck can be bent: joints that are no hinges about an axis across their line,
+/// the axis of the next hinge, and an axis across both, each to one side and to the other.
+pub(crate) const WAYS: usize = 6;
 
 /// The shortest turn from the direction of `a` to that of `b`, or `None` if one of them has none.
 ///
@@ -148,24 +152,40 @@ impl Linkage {
     /// Bends every joint a little, to get out of a pose in which no joint can do anything on its own.
     /// Whether anything moved.
     ///
-    /// A joint bends across the line to its effector, a hinge about its own axis; whichever way its limits
-    /// leave open.
-    pub(crate) fn nudge(&mut self, angle_rad: f64) -> bool {
+    /// A hinge bends about its own axis, whichever way its range leaves open. Other joints bend across the line
+    /// to their effector, in one of [`WAYS`]: a knee that bends one way only follows a hip that bends the
+    /// other way, so there may be one that helps.
+    pub(crate) fn nudge(&mut self, angle_rad: f64, way: usize) -> bool {
         let mut has_moved = false;
         for index in 0..self.effectors.len() {
-            for step in self.effectors[index].path_start..self.effectors[index].path_end {
+            let Effector {
+                path_start,
+                path_end,
+                ..
+            } = self.effectors[index];
+            for step in path_start..path_end {
                 let k = self.paths[step] as usize;
                 if !self.pivots[k].turns {
                     continue;
                 }
-                let line = self.effector_position(index) - self.positions[k];
-                let across = perpendicular(line);
-                let axes = match self.pivots[k].hinge_axis(self.inner_turn(k)) {
-                    Some(axis) => [axis, axis],
-                    None => [across, across.cross(line).normalize_or_zero()],
+                let axis_of = |k: usize| self.pivots[k].hinge_axis(self.inner_turn(k));
+                let axes = if let Some(axis) = axis_of(k) {
+                    [axis, -axis]
+                } else {
+                    let line = self.effector_position(index) - self.positions[k];
+                    let across = perpendicular(line);
+                    let mut beyond = self.paths[step..path_end].iter();
+                    let axis = match way / 2 {
+                        0 => across,
+                        1 => beyond
+                            .find_map(|&next| axis_of(next as usize))
+                            .unwrap_or(across),
+                        _ => across.cross(line).normalize_or_zero(),
+                    };
+                    let axis = if way % 2 == 0 { axis } else { -axis };
+                    [axis, across.cross(axis).normalize_or_zero()]
                 };
-                let ways = axes.map(|axis| [axis, -axis]);
-                has_moved |= ways.iter().flatten().any(|&axis| {
+                has_moved |= axes.iter().any(|&axis| {
                     let before = self.turns[k];
                     self.set_turn(k, exp(axis * angle_rad) * before);
                     self.turns[k].dot(before).abs() < 1.0 - 1e-9

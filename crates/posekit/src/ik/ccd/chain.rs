@@ -5,7 +5,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::{AT_REST, MOST_NUDGES, NUDGES_RAD, Scratch, SweepOrder};
+use super::{AT_REST, MOST_NUDGES, Scratch, SweepOrder, nudges};
 use crate::ik::linkage::{Linkage, State};
 use crate::ik::problem::IkProblem;
 use crate::ik::solve::{Progress, is_short};
@@ -22,7 +22,7 @@ pub(super) fn run(
     let tolerance_sq = problem.stop.position_tolerance * problem.stop.position_tolerance;
     let mut progress = Progress::default();
     let mut left_sq = linkage.effector_position(0).distance_squared(target);
-    let mut nudges = 0;
+    let mut nudge_count = 0;
     scratch.next.store(linkage);
     while progress.iterations < problem.stop.max_iterations && left_sq > tolerance_sq {
         // Into other memory than it reads: a sweep that did not come nearer is thus not made.
@@ -50,13 +50,13 @@ pub(super) fn run(
             continue;
         }
         if !is_stuck
-            || nudges == MOST_NUDGES
+            || nudge_count == MOST_NUDGES
             || !escape(linkage, scratch, order, target, &mut left_sq)
         {
             progress.is_settled = true;
             break;
         }
-        nudges += 1;
+        nudge_count += 1;
     }
     progress
 }
@@ -70,8 +70,8 @@ fn escape(
     left_sq: &mut f64,
 ) -> bool {
     scratch.best.store(linkage);
-    for angle_rad in NUDGES_RAD {
-        if !linkage.nudge(angle_rad) {
+    for (angle_rad, way) in nudges() {
+        if !linkage.nudge(angle_rad, way) {
             break;
         }
         sweep(

@@ -37,7 +37,7 @@ use crate::ik::problem::{Base, IkProblem, TraceDetail};
 use crate::ik::pull::Pull;
 use crate::ik::solve::{Progress, is_reached, is_short, miss};
 use crate::ik::trace::{IkTrace, TraceIteration, TraceUpdate};
-use crate::ik::turn::{perpendicular, shortened, shortest_turn, swivel};
+use crate::ik::turn::{WAYS, perpendicular, shortened, shortest_turn, swivel};
 use crate::ik::workspace::IkWorkspace;
 use crate::pose::LocalPose;
 use crate::rotation::log;
@@ -82,9 +82,17 @@ const SMALLEST: f64 = 1e-30;
 /// How often a chain is bent that stands still short of its target.
 const MOST_NUDGES: u32 = 8;
 
-/// By how much each joint of it is bent, in this order until a sweep from there comes nearer than the chain
-/// stood: enough to get away from a singular pose, little enough not to be seen in the result, at first.
+/// By how much each joint of it is bent, in this order and in all ways until a sweep from there comes nearer than
+/// the chain stood: enough to get away from a singular pose, little enough not to be seen in the result, at
+/// first.
 const NUDGES_RAD: [f64; 4] = [0.05, 0.01, 0.25, 1.0];
+
+/// All sizes and ways.
+fn nudges() -> impl Iterator<Item = (f64, usize)> {
+    NUDGES_RAD
+        .into_iter()
+        .flat_map(|angle_rad| (0..WAYS).map(move |way| (angle_rad, way)))
+}
 
 /// Memory that is used again.
 #[derive(Clone, Debug, Default)]
@@ -157,7 +165,7 @@ fn run_figure(figure: &Figure<'_>, linkage: &mut Linkage, scratch: &mut Scratch)
         ..Progress::default()
     };
     let descends = figure.descends();
-    let mut nudges = 0;
+    let mut nudge_count = 0;
     let mut best = miss(linkage, problem);
     scratch.best.store(linkage);
     while progress.iterations < problem.stop.max_iterations && !is_reached(linkage, problem) {
@@ -184,10 +192,10 @@ fn run_figure(figure: &Figure<'_>, linkage: &mut Linkage, scratch: &mut Scratch)
             is_still && (!gains || is_stuck)
         };
         if is_at_rest && !is_reached(linkage, problem) {
-            progress.is_settled = nudges == MOST_NUDGES
+            progress.is_settled = nudge_count == MOST_NUDGES
                 || !is_stuck
                 || !escape(figure, linkage, scratch, &mut best, record.as_mut());
-            nudges += 1;
+            nudge_count += 1;
         }
         progress.record(linkage, figure.skeleton, figure.pose, problem, record);
         if progress.is_settled {
@@ -210,8 +218,8 @@ fn escape(
     best: &mut f64,
     mut record: Option<&mut TraceIteration>,
 ) -> bool {
-    for angle_rad in NUDGES_RAD {
-        if !linkage.nudge(angle_rad) {
+    for (angle_rad, way) in nudges() {
+        if !linkage.nudge(angle_rad, way) {
             return false;
         }
         if let Some(record) = &mut record {

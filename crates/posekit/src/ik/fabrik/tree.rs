@@ -9,18 +9,18 @@ use crate::ik::linkage::{Linkage, NONE, State};
 use crate::ik::problem::IkProblem;
 use crate::ik::solve::{Progress, is_reached, is_short, miss};
 use crate::ik::trace::{TraceIteration, TraceUpdate};
-use crate::ik::turn::{shortened, shortest_turn, swivel};
+use crate::ik::turn::{WAYS, shortened, shortest_turn, swivel};
 use crate::rotation::{log, matrix_from_quat, nearest_rotation, quat_from_matrix};
 
 /// How much the present orientation of a link counts beside its points where several of them ask for
 /// different ones: enough to settle the twist that points on one line leave open.
 const KEEP_SHARE: f64 = 1e-3;
 
-/// By how much joints are bent when all stands still.
-const NUDGE_RAD: f64 = 0.05;
+/// By how much joints are bent when all stands still: a little in each way, then more.
+const NUDGES_RAD: [f64; 2] = [0.05, 0.8];
 
 /// How often they are.
-const MOST_NUDGES: u32 = 2;
+const MOST_NUDGES: usize = WAYS * NUDGES_RAD.len();
 
 /// Memory that is used again.
 #[derive(Clone, Debug, Default)]
@@ -56,12 +56,15 @@ pub(super) fn run(
     let mut best = miss(linkage, problem);
     scratch.best.store(linkage);
     let (mut at_rest, mut nudges) = (0, 0);
+    // Whether the pose is not the one that the last iteration led to.
+    let mut is_bent = false;
     let mut last = best;
     let rest = figure.config.rest_share * problem.stop.position_tolerance.max(f64::MIN_POSITIVE);
     while progress.iterations < problem.stop.max_iterations && !is_reached(linkage, problem) {
         if let Some(pull) = &figure.pull {
             pull.draw(linkage, progress.iterations);
         }
+        is_bent = false;
         linkage.float(problem);
         scratch.before.clear();
         scratch.before.extend_from_slice(&linkage.turns);
@@ -83,16 +86,32 @@ pub(super) fn run(
         last = now;
         let is_stuck = is_short(linkage, problem);
         if at_rest >= 3 && (is_stuck || !gains) {
-            if !is_stuck || nudges == MOST_NUDGES || !linkage.nudge(NUDGE_RAD) {
+            // From the best pose: the way before may have led off.
+            if is_stuck && nudges < MOST_NUDGES {
+                linkage.recall(&scratch.best);
+                is_bent = true;
+            }
+            if !is_stuck
+                || nudges == MOST_NUDGES
+                || !linkage.nudge(NUDGES_RAD[nudges / WAYS], nudges % WAYS)
+            {
                 progress.is_settled = true;
                 break;
             }
             nudges += 1;
             at_rest = 0;
+            let bent = miss(linkage, problem);
+            if bent < best {
+                best = bent;
+                scratch.best.store(linkage);
+            }
         }
     }
     if !is_reached(linkage, problem) && miss(linkage, problem) > best {
         linkage.recall(&scratch.best);
+        is_bent = true;
+    }
+    if is_bent {
         let record = progress.trace.is_some().then(TraceIteration::default);
         progress.record(linkage, figure.skeleton, figure.pose, problem, record);
     }

@@ -91,7 +91,7 @@ impl Default for SelectivelyDampedConfig {
 const AT_REST: f64 = 1e-11;
 
 /// How often a figure that stands still short of its targets is bent.
-const MOST_NUDGES: u32 = 2;
+const MOST_NUDGES: usize = 6;
 
 /// How many iterations in a row that do not better the best residual mean that no more will.
 const MOST_WITHOUT_GAIN: u32 = 24;
@@ -231,7 +231,7 @@ fn iterate<M: Model>(
         let moves = solve(system) && system.largest_step() > AT_REST;
         if !moves || without_gain > MOST_WITHOUT_GAIN {
             model.save();
-            if !model.is_short() || nudges == MOST_NUDGES || !model.nudge() {
+            if !model.is_short() || nudges == MOST_NUDGES || !model.nudge(nudges) {
                 made.is_settled = true;
                 break;
             }

@@ -65,10 +65,20 @@ impl Patience {
             slow_in_row: 1,
         }
     }
+
+    /// That of one of many starts of a figure.
+    pub(crate) fn of_start(most: u32) -> Self {
+        Self {
+            most,
+            slow_gain: 1e-3,
+            slow_step: f64::INFINITY,
+            slow_in_row: 3,
+        }
+    }
 }
 
 /// How often a figure that stands still short of its targets is bent.
-const MOST_NUDGES: u32 = 2;
+const MOST_NUDGES: usize = 2;
 
 /// The damping's factor as it changes.
 struct Damping {
@@ -132,7 +142,7 @@ pub(crate) fn minimize<M: Model>(
                 break;
             }
             let before = cost;
-            if !try_nudge(model, system, &mut cost) {
+            if !try_nudge(model, system, &mut cost, nudges) {
                 break;
             }
             // All other steps lead downhill: the best state so far is one that was bent, or the last.
@@ -184,9 +194,9 @@ pub(crate) fn minimize<M: Model>(
 }
 
 /// Leaves a pose in which no step helps; whether it could.
-fn try_nudge<M: Model>(model: &mut M, system: &mut System, cost: &mut f64) -> bool {
+fn try_nudge<M: Model>(model: &mut M, system: &mut System, cost: &mut f64, time: usize) -> bool {
     model.save();
-    if !model.nudge() {
+    if !model.nudge(time) {
         return false;
     }
     model.record(Taken::Nothing);

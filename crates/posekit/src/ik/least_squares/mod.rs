@@ -18,7 +18,10 @@
 //!   the residual (Sugihara 2011, "Solvability-Unconcerned Inverse Kinematics by the Levenberg-Marquardt
 //!   Method", IEEE Trans. Robotics 27(5), doi:10.1109/TRO.2011.2148230) and how well the linearisation
 //!   foretold it (Nielsen 1999); a step that makes the residual grow is taken back. As the residual vanishes
-//!   it becomes Gauss-Newton and converges quadratically. The one for several targets.
+//!   it becomes Gauss-Newton and converges quadratically. The one for several targets; and the one that starts
+//!   again from other poses where it comes to rest short of them.
+//!
+//! **More iterations** never leave more: the best pose on the way is kept.
 //!
 //! **Units.** Residuals in position are told in lengths of the longest chain, so that dampings mean the same
 //! for every figure; a radian counts as much as the configuration says. Weights of targets multiply squares.
@@ -35,6 +38,7 @@
 
 mod cholesky;
 mod descend;
+mod elsewhere;
 mod figure;
 mod levenberg;
 mod model;
@@ -47,6 +51,7 @@ pub use descend::{
 pub use levenberg::LevenbergMarquardtConfig;
 
 use descend::Way;
+pub(crate) use elsewhere::are_limits_in_the_way;
 pub(crate) use figure::{Figure, FigureMemory, FigureParts};
 pub(crate) use levenberg::{Patience, minimize};
 pub(crate) use model::{Model, Taken};
@@ -74,6 +79,8 @@ pub(crate) struct Iterations {
     pub(crate) count: u32,
     /// Whether more would change nothing.
     pub(crate) is_settled: bool,
+    /// Whether other starts were tried, none of which reached the targets if this one does not.
+    pub(crate) has_searched: bool,
 }
 
 /// Runs one of these solvers on the linkage of the workspace.
@@ -115,13 +122,14 @@ pub(crate) fn run(
             descend::selectively_damped(&mut model, system, svd, config, most)
         }
         Solver::LevenbergMarquardt(config) => {
-            minimize(&mut model, system, config, &Patience::of_figure(most))
+            elsewhere::minimize_anywhere(&mut model, system, config, most)
         }
         _ => Iterations::default(),
     };
     Progress {
         iterations: made.count,
         is_settled: made.is_settled,
+        has_searched: made.has_searched,
         trace: model.into_trace(),
     }
 }

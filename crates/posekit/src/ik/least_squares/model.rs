@@ -42,8 +42,8 @@ pub(crate) trait Model {
     fn restore_kept(&mut self);
 
     /// Leaves a state in which every small step is useless, though the targets may be in reach; whether it
-    /// could.
-    fn nudge(&mut self) -> bool;
+    /// could. The first time, the second and so on in another way.
+    fn nudge(&mut self, time: usize) -> bool;
 
     /// Called after each iteration, with the state before it remembered.
     fn record(&mut self, taken: Taken);

@@ -8,12 +8,13 @@
 //! **Method.** A motion outside its limits is replaced by one within them ([`JointLimit::project`]): cones
 //! by clamping swing and twist apart (Grassia 1998; Wilhelms and Van Gelder 2001, "Fast and Easy
 //! Reach-Cone Joint Limits", J. Graphics Tools 6(2)), Euler ranges by clamping each angle of the solution
-//! that is nearest to the middle of the ranges, hinges by their twist.
+//! that has to be moved least, hinges by their twist.
 //!
 //! **Guarantees.** Projecting twice is the same as once, up to rounding. A motion within its limits is
 //! returned as it is, to the bit. Nothing panics; a zero quaternion gives the rest position.
 
 mod project;
+mod sample;
 mod table;
 
 use glam::DVec3;

@@ -58,19 +58,57 @@ pub(crate) fn clamp_angle(angle_rad: f64, range_rad: Interval) -> f64 {
 }
 
 fn project_euler(motion: DQuat, order: EulerOrder, ranges_rad: &[Interval; 3]) -> DQuat {
-    let middle = ranges_rad.map(Interval::middle);
-    let euler = order.from_quat_near(motion, middle);
-    let mut clamped = euler.angles_rad;
-    let mut is_within = euler.residual_rad <= ROUNDING_RAD;
-    for (angle, range) in clamped.iter_mut().zip(ranges_rad).take(order.axes().len()) {
-        let nearest = clamp_angle(*angle, *range);
-        is_within &= (nearest - *angle).abs() <= ROUNDING_RAD;
-        *angle = nearest;
-    }
-    if is_within {
+    let found = within(motion, order, ranges_rad);
+    if found.is_within {
         motion
     } else {
-        order.to_quat(clamped)
+        order.to_quat(found.angles_rad)
+    }
+}
+
+/// Angles of a motion within ranges.
+struct WithinRanges {
+    angles_rad: [f64; 3],
+    /// How far angles were moved to get there, in all.
+    moved_rad: f64,
+    /// Whether they make the motion that was asked for.
+    is_within: bool,
+}
+
+/// The angles within the ranges that are nearest to those of a motion. Of the two triples that make it the one
+/// that is moved less counts: one within the ranges is found even if the other lies nearer to their middle.
+fn within(motion: DQuat, order: EulerOrder, ranges_rad: &[Interval; 3]) -> WithinRanges {
+    let middle = ranges_rad.map(Interval::middle);
+    let euler = order.from_quat_near(motion, middle);
+    let clamped = |angles_rad: [f64; 3]| {
+        let mut found = WithinRanges {
+            angles_rad,
+            moved_rad: 0.0,
+            is_within: euler.residual_rad <= ROUNDING_RAD,
+        };
+        let pairs = found.angles_rad.iter_mut().zip(ranges_rad);
+        for (angle, range) in pairs.take(order.axes().len()) {
+            let nearest = clamp_angle(*angle, *range);
+            // On the circle: the end of a range may be a turn away.
+            let moved = libm::remainder(nearest - *angle, TAU).abs();
+            found.is_within &= moved <= ROUNDING_RAD;
+            found.moved_rad += moved;
+            *angle = nearest;
+        }
+        found
+    };
+    let first = clamped(euler.angles_rad);
+    let [a, b, c] = euler.angles_rad;
+    let other = match order.axes() {
+        _ if first.is_within || !order.is_complete() => return first,
+        [outer, _, inner] if outer == inner => [a + PI, -b, c + PI],
+        _ => [a + PI, PI - b, c + PI],
+    };
+    let other = clamped(other);
+    if other.moved_rad < first.moved_rad {
+        other
+    } else {
+        first
     }
 }
 
@@ -80,7 +118,8 @@ fn project_cone(motion: DQuat, axis: DVec3, swing_max_rad: f64, twist_rad: Inter
     let swing = log(parts.swing);
     let swing_angle_rad = swing.length();
     let is_swing_within = swing_angle_rad <= swing_max_rad + ROUNDING_RAD;
-    if is_swing_within && (twist_angle_rad - parts.twist_angle_rad).abs() <= ROUNDING_RAD {
+    let moved_rad = libm::remainder(twist_angle_rad - parts.twist_angle_rad, TAU).abs();
+    if is_swing_within && moved_rad <= ROUNDING_RAD {
         return motion;
     }
     let swing = if is_swing_within {
@@ -95,14 +134,23 @@ fn project_hinge(motion: DQuat, axis: DVec3, range_rad: Interval) -> DQuat {
     let parts = swing_twist(motion, axis);
     let angle_rad = clamp_angle(parts.twist_angle_rad, range_rad);
     let swing_angle_rad = 2.0 * libm::asin(parts.swing.xyz().length().min(1.0)).min(PI);
-    if (angle_rad - parts.twist_angle_rad).abs() <= ROUNDING_RAD && swing_angle_rad <= ROUNDING_RAD
-    {
+    let moved_rad = libm::remainder(angle_rad - parts.twist_angle_rad, TAU).abs();
+    if moved_rad <= ROUNDING_RAD && swing_angle_rad <= ROUNDING_RAD {
         return motion;
     }
     exp(axis * angle_rad)
 }
 
 impl JointLimit {
+    /// The angles within the ranges that make the motion, or one as near to it as projecting leads to.
+    pub(crate) fn euler_angles(
+        motion: DQuat,
+        order: EulerOrder,
+        ranges_rad: &[Interval; 3],
+    ) -> [f64; 3] {
+        within(motion, order, ranges_rad).angles_rad
+    }
+
     /// Whether a motion within the limits is at an end of them, within `tolerance_rad`: it could go no
     /// further at least one way. A hinge is so only at the ends of its range.
     pub(crate) fn is_at_end(&self, motion: DQuat, tolerance_rad: f64) -> bool {
@@ -114,8 +162,7 @@ impl JointLimit {
         match *self {
             Self::Free | Self::Fixed | Self::Slide { .. } => false,
             Self::Euler { order, angles_rad } => {
-                let middle = angles_rad.map(Interval::middle);
-                let angles = order.from_quat_near(motion, middle).angles_rad;
+                let angles = Self::euler_angles(motion, order, &angles_rad);
                 let count = order.axes().len();
                 (0..count).any(|i| is_at(angles[i], angles_rad[i]))
             }

@@ -17,17 +17,16 @@
 //! workspace has grown but the ranges and the report.
 
 mod dexterity;
-mod random;
 mod tree;
 mod two_link;
 
 use super::least_squares::{LevenbergMarquardtConfig, Model, Patience, System, minimize};
 use super::problem::StopRule;
+use super::random::Random;
 use super::report::{IkOutcome, IkResidual};
 use super::target::IkTarget;
 use crate::mechanism::Mechanism;
 use crate::skeleton::JointId;
-use random::Random;
 use tree::{RobotModel, Tree};
 
 pub use dexterity::{Dexterity, RangeMargin, Task, TipJacobian, jacobian, range_margins};

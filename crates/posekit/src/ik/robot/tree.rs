@@ -5,9 +5,9 @@ use core::f64::consts::PI;
 
 use glam::{DQuat, DVec3};
 
-use super::random::Random;
 use crate::ik::least_squares::{Degree, Model, System, Taken};
 use crate::ik::problem::StopRule;
+use crate::ik::random::Random;
 use crate::ik::report::IkResidual;
 use crate::ik::target::IkTarget;
 use crate::mechanism::{Frame, Freedom, Mechanism, ValueRange};
@@ -515,7 +515,7 @@ impl Model for RobotModel<'_> {
 
     fn restore_kept(&mut self) {}
 
-    fn nudge(&mut self) -> bool {
+    fn nudge(&mut self, _: usize) -> bool {
         // Another attempt is the better way out.
         false
     }

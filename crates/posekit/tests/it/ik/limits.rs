@@ -63,6 +63,37 @@ fn euler_ranges_clamp_each_angle() {
     assert!(near(given, order.to_quat([0.5, 0.0, 2.0])));
 }
 
+/// Angles within wide ranges make a motion that other angles make as well, and those may lie nearer to the middle of
+/// the ranges: it is within all the same.
+#[test]
+fn euler_angles_within_their_ranges_stay() {
+    let order = EulerOrder::ZXY;
+    let limit = JointLimit::Euler {
+        order,
+        angles_rad: [
+            Interval::symmetric(2.7),
+            Interval::symmetric(1.4),
+            Interval::symmetric(1.7),
+        ],
+    };
+    let steps = |most: f64| (0..9).map(move |i| most * (f64::from(i) / 4.0 - 1.0));
+    for a in steps(2.7) {
+        for b in steps(1.4) {
+            for c in steps(1.7) {
+                let motion = order.to_quat([a, b, c]);
+                assert!(near(limit.project(motion), motion), "{a} {b} {c}");
+            }
+        }
+    }
+    // A range across half a turn, and a motion within it told the other way round: to the bit.
+    let hinge = JointLimit::Hinge {
+        axis: DVec3::Z,
+        angle_rad: Interval::new(2.5, 5.0),
+    };
+    let motion = exp(DVec3::Z * -2.0);
+    assert_eq!(hinge.project(motion), motion);
+}
+
 #[test]
 fn tables_refuse_what_makes_no_sense() {
     let mut limits = JointLimits::default();

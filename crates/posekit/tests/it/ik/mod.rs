@@ -1,5 +1,6 @@
 //! Inverse kinematics: every solver through one suite, and what each does alone.
 
+mod anywhere;
 mod conformance;
 mod figures;
 mod iterations;

@@ -18,14 +18,16 @@ pub(super) struct Rows {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Snapshot {
     pub(super) linkage: State,
-    angles: Vec<f64>,
+    values: Vec<[f64; 3]>,
 }
 
 /// See the module.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct FigureMemory {
-    /// By pivot: the angle of a hinge.
-    pub(super) angles: Vec<f64>,
+    /// By pivot: the angle of a hinge, first; or what [`exact`](super::exact) goes through.
+    pub(super) values: Vec<[f64; 3]>,
+    /// Whether ball joints with limits go through coordinates whose bounds the limits are.
+    pub(super) is_exact: bool,
     /// By pivot: the direction in which a ball joint's limit was met last, as a turn of the outer link,
     /// unit length, in the world at the start, carried by the inner link; zero for none.
     pub(super) normals: Vec<DVec3>,
@@ -44,6 +46,8 @@ pub(crate) struct FigureMemory {
     pub(super) saved: Snapshot,
     /// A state that may be gone back to at the end.
     kept: Snapshot,
+    /// The best pose of all starts.
+    best: State,
 }
 
 impl FigureMemory {
@@ -56,8 +60,9 @@ impl FigureMemory {
         per_radian: f64,
     ) {
         let count = linkage.pivots.len();
-        self.angles.clear();
-        self.angles.resize(count, 0.0);
+        self.values.clear();
+        self.values.resize(count, [0.0; 3]);
+        self.is_exact = false;
         self.normals.clear();
         self.normals.resize(count, DVec3::ZERO);
         self.moves.clear();
@@ -115,15 +120,15 @@ impl FigureMemory {
     }
 
     pub(super) fn save(&mut self, linkage: &Linkage) {
-        let Self { saved, angles, .. } = self;
+        let Self { saved, values, .. } = self;
         saved.linkage.store(linkage);
-        saved.angles.clone_from(angles);
+        saved.values.clone_from(values);
     }
 
     pub(super) fn restore(&mut self, linkage: &mut Linkage) {
-        let Self { saved, angles, .. } = self;
+        let Self { saved, values, .. } = self;
         linkage.recall(&saved.linkage);
-        angles.clone_from(&saved.angles);
+        values.clone_from(&saved.values);
     }
 
     pub(super) fn keep_saved(&mut self) {
@@ -131,8 +136,16 @@ impl FigureMemory {
     }
 
     pub(super) fn restore_kept(&mut self, linkage: &mut Linkage) {
-        let Self { kept, angles, .. } = self;
+        let Self { kept, values, .. } = self;
         linkage.recall(&kept.linkage);
-        angles.clone_from(&kept.angles);
+        values.clone_from(&kept.values);
+    }
+
+    pub(super) fn store_best(&mut self, linkage: &Linkage) {
+        self.best.store(linkage);
+    }
+
+    pub(super) fn recall_best(&self, linkage: &mut Linkage) {
+        linkage.recall(&self.best);
     }
 }

@@ -4,7 +4,9 @@
 //! slide one, its length; a root that is afloat three more for its place. A ball joint at its limit has its
 //! three axes turned so that the first one points out of the limit; its step is then bounded at zero.
 
+mod exact;
 mod memory;
+mod scatter;
 mod wish;
 
 use glam::{DMat3, DQuat, DVec3};
@@ -13,15 +15,15 @@ pub(crate) use memory::FigureMemory;
 
 use super::model::{Model, Taken};
 use super::system::{Degree, System};
-use crate::ik::limit::{Interval, JointLimit, clamp_angle};
+use crate::ik::limit::{Interval, JointLimit};
 use crate::ik::linkage::{Linkage, NONE};
 use crate::ik::problem::{IkProblem, TraceDetail};
 use crate::ik::pull::Pull;
-use crate::ik::solve::{is_out_of_reach, is_reached, is_short};
+use crate::ik::solve::{is_out_of_reach, is_reached, is_short, rest_distance};
 use crate::ik::trace::{IkTrace, TraceIteration, TraceUpdate};
 use crate::ik::turn::perpendicular;
 use crate::pose::LocalPose;
-use crate::rotation::{exp, log, swing_twist};
+use crate::rotation::{exp, log};
 use crate::skeleton::Skeleton;
 
 /// By how much each joint is bent to leave a pose in which none can do anything on its own.
@@ -68,23 +70,48 @@ impl<'a> Figure<'a> {
         } = parts;
         linkage.enforce_limits();
         memory.prepare(linkage, problem, 1.0 / reach(linkage), radian_share);
-        for k in 0..linkage.pivots.len() {
-            if let JointLimit::Hinge { axis, angle_rad } = linkage.pivots[k].limit {
-                let twist = swing_twist(linkage.motion(k), axis).twist_angle_rad;
-                memory.angles[k] = clamp_angle(twist, angle_rad);
-            }
-        }
-        let strength = problem.rest_pull.as_ref().map(|pull| pull.strength);
-        Self {
+        let mut figure = Self {
             skeleton,
             start,
             problem,
             linkage,
             memory,
             pull: Pull::new(skeleton, start, problem),
-            pull_share: strength.unwrap_or(0.0).clamp(0.0, 1.0),
+            pull_share: 0.0,
             trace: (problem.trace == TraceDetail::Updates).then(IkTrace::default),
-        }
+        };
+        figure.begin_anew();
+        figure
+    }
+
+    /// The same without a record of its way.
+    pub(super) fn untraced(mut self) -> Self {
+        self.trace = None;
+        self
+    }
+
+    /// How many joints are moved, each counted once for every target.
+    pub(super) fn size(&self) -> usize {
+        self.linkage.pivots.len() * self.problem.targets.len()
+    }
+
+    /// Whether no pose can come nearer to the targets than a stretched or folded one does, which every start
+    /// leads to.
+    pub(super) fn is_plainly_out_of_reach(&self) -> bool {
+        let is_free = |limit: JointLimit| matches!(limit, JointLimit::Free);
+        is_out_of_reach(self.linkage, self.problem)
+            && self.problem.targets.len() == 1
+            && self.linkage.pivots.iter().all(|pivot| is_free(pivot.limit))
+    }
+
+    /// Whether one position is all that is asked for.
+    pub(super) fn is_for_one_place(&self) -> bool {
+        matches!(self.problem.targets.as_slice(), [one] if one.orientation_in_world.is_none())
+    }
+
+    /// By how much two residuals have to differ to count, in the residual's own measure.
+    pub(super) fn least_gain(&self) -> f64 {
+        rest_distance(self.problem) / reach(self.linkage)
     }
 
     /// The recorded way.
@@ -182,11 +209,11 @@ impl<'a> Figure<'a> {
     }
 
     fn turn_hinge(&mut self, k: usize, axis: DVec3, range: Interval, step: f64) -> DQuat {
-        let mut angle = self.memory.angles[k] + step;
+        let mut angle = self.memory.values[k][0] + step;
         if is_bounded(range) {
             angle = range.clamp(angle);
         }
-        self.memory.angles[k] = angle;
+        self.memory.values[k][0] = angle;
         let before = self.linkage.turns[k];
         let pivot = &self.linkage.pivots[k];
         let turn = pivot.turn_of_motion(self.linkage.inner_turn(k), exp(axis * angle));
@@ -238,7 +265,7 @@ impl Model for Figure<'_> {
             match limit {
                 JointLimit::Hinge { axis, angle_rad } if turns => {
                     let axis = self.hinge_axis(k, axis);
-                    let mut degree = bounded_degree(give, angle_rad, self.memory.angles[k]);
+                    let mut degree = bounded_degree(give, angle_rad, self.memory.values[k][0]);
                     if !is_bounded(angle_rad) {
                         degree = Degree::free(give);
                     }
@@ -259,7 +286,9 @@ impl Model for Figure<'_> {
                     } else {
                         DVec3::ZERO
                     };
-                    self.push_ball(system, k, wish);
+                    if !self.memory.is_exact || !self.push_exact(system, k, wish) {
+                        self.push_ball(system, k, wish);
+                    }
                 }
                 _ => {}
             }
@@ -289,7 +318,10 @@ impl Model for Figure<'_> {
                     self.linkage.slides[k] = distance.clamp(slid) - start;
                     carried
                 }
-                _ if turns => self.turn_ball(k, carried, step),
+                _ if turns => match self.turn_exact(k, &step[own..]) {
+                    Some(turn) => turn,
+                    None => self.turn_ball(k, carried, step),
+                },
                 _ => carried,
             };
             self.memory.moves[k] = moved;
@@ -325,16 +357,11 @@ impl Model for Figure<'_> {
         self.memory.restore_kept(self.linkage);
     }
 
-    fn nudge(&mut self) -> bool {
-        if is_out_of_reach(self.linkage, self.problem) || !self.linkage.nudge(NUDGE_RAD) {
+    fn nudge(&mut self, time: usize) -> bool {
+        if is_out_of_reach(self.linkage, self.problem) || !self.linkage.nudge(NUDGE_RAD, time) {
             return false;
         }
-        for k in 0..self.linkage.pivots.len() {
-            if let JointLimit::Hinge { axis, angle_rad } = self.linkage.pivots[k].limit {
-                let twist = swing_twist(self.linkage.motion(k), axis).twist_angle_rad;
-                self.memory.angles[k] = clamp_angle(twist, angle_rad);
-            }
-        }
+        self.measure();
         true
     }
 
@@ -363,6 +390,17 @@ impl Model for Figure<'_> {
 }
 
 impl Figure<'_> {
+    /// Remembers the present pose as the best of all starts.
+    pub(super) fn store_best(&mut self) {
+        self.memory.store_best(self.linkage);
+    }
+
+    /// Goes back to the best of all starts.
+    pub(super) fn recall_best(&mut self) {
+        self.memory.recall_best(self.linkage);
+        self.begin_anew();
+    }
+
     /// What pivot `k` did in the last step, for the first effector that it moves.
     fn update_of(&self, k: usize) -> Option<TraceUpdate> {
         let slot = self.memory.effectors_beyond(k).next()?;

@@ -4,10 +4,10 @@ use glam::{DQuat, DVec4};
 
 /// `SplitMix64` (Steele, Lea and Flood 2014, "Fast Splittable Pseudorandom Number Generators").
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Random(u64);
+pub(crate) struct Random(u64);
 
 impl Random {
-    pub(super) fn seeded(seed: u64) -> Self {
+    pub(crate) fn seeded(seed: u64) -> Self {
         Self(seed)
     }
 
@@ -21,13 +21,13 @@ impl Random {
 
     /// Evenly from `low` up to `high`.
     #[allow(clippy::cast_precision_loss, reason = "53 bits are exact in an f64")]
-    pub(super) fn between(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
         let share = (self.next() >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0);
         low + (high - low) * share
     }
 
     /// Any orientation, each as likely as any other: a direction in four dimensions, by rejection.
-    pub(super) fn orientation(&mut self) -> DQuat {
+    pub(crate) fn orientation(&mut self) -> DQuat {
         loop {
             let v = DVec4::from_array(core::array::from_fn(|_| self.between(-1.0, 1.0)));
             let length_sq = v.length_squared();
