@@ -12,7 +12,9 @@
 //! column vectors, quaternions as x, y, z, w; `Q_child = Q_parent * R_child` and
 //! `P_child = P_parent + Q_parent * L_child`. Lengths are in the file's unit.
 
+pub mod body;
 pub mod check;
+
 pub mod figure;
 pub mod ik;
 pub mod inbetween;

@@ -19,6 +19,8 @@ mod harness;
 mod ik;
 mod ik_study;
 mod info;
+#[path = "../../../posekit-render/tests/it/inside.rs"]
+mod inside;
 mod keys;
 mod manuals;
 mod numpy;

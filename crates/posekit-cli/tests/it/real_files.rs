@@ -1,6 +1,12 @@
 //! Files that other people made.
 
+use std::path::Path;
+
+use posekit::motion::{Motion, PositionPolicy};
+use posekit_formats::bvh;
+
 use crate::harness::{Folder, real_data};
+use crate::inside::assert_fits;
 
 #[test]
 fn every_real_file_is_described_posed_and_converted() {
@@ -61,5 +67,62 @@ fn conversions_leave_the_joints_of_a_real_file_where_they_were() {
                 "{name} {change:?}: {gap} of {largest}"
             );
         }
+    }
+}
+
+/// The first file of every skeleton of `../shared` that is a person's.
+const PEOPLE: [&str; 12] = [
+    "data/bandai/dataset-1_run_normal_001.bvh",
+    "data/bandai/dataset-1_dance-short_normal_001.bvh",
+    "data/bandai/dataset-2_walk-turn-left_normal_001.bvh",
+    "data/cmu/01_01.bvh",
+    "data/cmu/cmu_12_01_walk.bvh",
+    "data/course/motion_walking.bvh",
+    "data/course/push.bvh",
+    "data/games105/walk_and_turn_left.bvh",
+    "more/games105/mixamo_names.bvh",
+    "more/games105/walk_forward.bvh",
+    "more/makehuman/walk1.bvh",
+    "cases/ape.bvh",
+];
+
+fn motion_of(path: &Path) -> Motion {
+    let bytes = std::fs::read(path).unwrap();
+    let import = bvh::read(&bytes).unwrap();
+    import.document.to_motion(PositionPolicy::Replace).unwrap()
+}
+
+#[test]
+fn bones_of_real_people_lie_inside_their_parts() {
+    let Some(data) = real_data() else { return };
+    let shared = data.parent().unwrap();
+    for name in PEOPLE {
+        let path = shared.join(name);
+        if !path.exists() {
+            println!("skipped: no {}", path.display());
+            continue;
+        }
+        assert_fits(name, &motion_of(&path));
+    }
+}
+
+/// `lAnkle` is never below +0.0416, `lToeJoint_end` goes to -0.0627 (forward kinematics in NumPy).
+#[test]
+fn the_joint_below_the_floor_is_named() {
+    let Some(data) = real_data() else { return };
+    let path = data.join("games105/walk_and_turn_left.bvh");
+    let folder = Folder::with_arm();
+    let text = folder
+        .run(&["check", "--json", path.to_str().unwrap()])
+        .stdout;
+    let report: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let findings = report["findings"].as_array().unwrap().iter();
+    let dips: Vec<_> = findings
+        .filter(|finding| finding["code"] == "foot-below-floor")
+        .collect();
+    assert!(!dips.is_empty());
+    for dip in dips {
+        let name = dip["joints"][0].as_str().unwrap();
+        assert!(name.ends_with("ToeJoint_end"), "{dip}");
     }
 }

@@ -3,14 +3,16 @@
 //! A humanoid becomes an artist's mannequin: rounded blocks for the trunk, turned limbs with dark
 //! joint balls, feet with soles, a head with a visor that shows where it faces. Proportions are
 //! anthropometric (Drillis and Contini 1966, as Winter 2009 prints them), hung on the joints
-//! where they are. Any other skeleton becomes links.
+//! where they are. A skeleton that may be a person's but was not understood is drawn as bones, any
+//! other one as links.
 
+use posekit::body::{Anatomy, Side, side_of_joint};
 use posekit::skeleton::{JointId, Skeleton};
 
 use crate::mesh::{MaterialId, Mesh, Shape};
 
-use super::anatomy::{Anatomy, Side, side_of_joint};
-use super::fitter::{Fitter, SEGMENTS};
+use super::bones::bone_mesh;
+use super::fitter::{Fitter, Mannequin, SEGMENTS};
 use super::limbs::{add_arms, add_legs, has_fingers};
 use super::links::links;
 use super::proportions::Proportions;
@@ -22,57 +24,74 @@ use super::trunk::add_trunk;
 /// If the proportions are another skeleton's.
 #[must_use]
 pub fn body_mesh(skeleton: &Skeleton, proportions: &Proportions) -> Mesh {
-    match Anatomy::find(skeleton, &proportions.reference) {
-        Some(anatomy) => humanoid(skeleton, proportions, &anatomy),
-        None => links(skeleton, proportions),
+    match &proportions.anatomy {
+        Ok(anatomy) => match anatomy.axes(&proportions.reference) {
+            Some(axes) => humanoid(
+                skeleton,
+                proportions,
+                Mannequin {
+                    anatomy,
+                    axes,
+                    stature: proportions.stature,
+                },
+            ),
+            None => bone_mesh(skeleton, proportions),
+        },
+        Err(reason) if reason.is_doubt() => bone_mesh(skeleton, proportions),
+        Err(_) => links(skeleton, proportions),
     }
 }
 
-fn humanoid(skeleton: &Skeleton, proportions: &Proportions, anatomy: &Anatomy) -> Mesh {
-    let stature = proportions.stature;
+fn humanoid(skeleton: &Skeleton, proportions: &Proportions, figure: Mannequin<'_>) -> Mesh {
     let mut fitter = Fitter::new(&proportions.reference);
-    add_trunk(&mut fitter, anatomy, stature);
-    add_legs(&mut fitter, anatomy, stature);
-    add_arms(&mut fitter, skeleton, anatomy, stature);
-    for joint in rest_of_body(skeleton, anatomy) {
+    add_trunk(&mut fitter, &figure);
+    add_legs(&mut fitter, &figure);
+    add_arms(&mut fitter, skeleton, &figure);
+    for joint in rest_of_body(skeleton, figure.anatomy) {
         if proportions.loose[joint.index()] {
             continue;
         }
-        add_extra(&mut fitter, skeleton, joint, stature);
+        add_extra(&mut fitter, skeleton, joint, figure.stature);
     }
     fitter.finish()
 }
 
 /// The joints whose bone the mannequin's parts do not cover: fingers, tails, weapons.
 fn rest_of_body(skeleton: &Skeleton, anatomy: &Anatomy) -> Vec<JointId> {
-    let covered_below: Vec<JointId> = {
-        let hands = anatomy.arms.iter().flatten().map(|arm| arm.lower);
-        hands
-            .filter(|&hand| !has_fingers(skeleton, hand))
-            .chain(anatomy.legs.iter().map(|leg| leg.lower))
-            .chain(std::iter::once(anatomy.head))
-            .collect()
-    };
-    let limbs = anatomy.legs.iter().chain(anatomy.arms.iter().flatten());
-    let mut covered: Vec<JointId> = limbs
-        .flat_map(|limb| {
-            limb.root
-                .iter()
-                .copied()
-                .chain([limb.upper, limb.middle, limb.lower])
-        })
-        .chain(anatomy.trunk.iter().copied())
-        .chain([anatomy.head, anatomy.pelvis])
-        .collect();
-    covered.extend(skeleton.ancestors(anatomy.pelvis));
+    let mut covered = vec![false; skeleton.joint_count()];
+    let mut cover = |joint: JointId| covered[joint.index()] = true;
+    for limb in anatomy.limbs() {
+        let parent = skeleton.parent(limb.root.first().copied().unwrap_or(limb.upper));
+        // From the trunk to the ankle or wrist, twist joints on the way included.
+        std::iter::once(limb.lower)
+            .chain(skeleton.ancestors(limb.lower))
+            .take_while(|&joint| Some(joint) != parent)
+            .for_each(&mut cover);
+    }
+    anatomy.trunk.iter().copied().for_each(&mut cover);
+    std::iter::once(anatomy.head)
+        .chain(skeleton.ancestors(anatomy.head))
+        .chain([anatomy.pelvis])
+        .chain(skeleton.ancestors(anatomy.pelvis))
+        .for_each(&mut cover);
+    // Feet, heads and hands without fingers cover what hangs from them.
+    let mut hides = vec![false; skeleton.joint_count()];
+    let hands = anatomy.arms.iter().flatten().map(|arm| arm.lower);
+    let whole = hands
+        .filter(|&hand| !has_fingers(skeleton, hand))
+        .chain(anatomy.legs.iter().map(|leg| leg.lower))
+        .chain([anatomy.head]);
+    whole.for_each(|joint| hides[joint.index()] = true);
+    for joint in skeleton.joints() {
+        let is_hidden = skeleton
+            .parent(joint)
+            .is_some_and(|parent| hides[parent.index()]);
+        hides[joint.index()] |= is_hidden;
+        covered[joint.index()] |= is_hidden;
+    }
     skeleton
         .joints()
-        .filter(|&joint| {
-            let hidden = skeleton
-                .ancestors(joint)
-                .any(|above| covered_below.contains(&above));
-            !hidden && !covered.contains(&joint)
-        })
+        .filter(|joint| !covered[joint.index()])
         .collect()
 }
 

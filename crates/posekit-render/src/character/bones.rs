@@ -2,9 +2,9 @@
 
 use glam::Vec3;
 
+use posekit::body::{Side, side_of_joint};
 use posekit::skeleton::Skeleton;
 
-use super::anatomy::{Side, side_of_joint};
 use super::proportions::Proportions;
 use crate::mesh::{ContactBall, MaterialId, Mesh, Shape};
 

@@ -2,6 +2,7 @@
 
 use glam::{Mat3, Vec3};
 
+use posekit::body::{Anatomy, BodyAxes};
 use posekit::pose::GlobalPose;
 use posekit::skeleton::JointId;
 
@@ -13,6 +14,17 @@ use super::bones::add_contact;
 pub(super) const SEGMENTS: usize = 18;
 /// Slices of the trunk, the head and other large parts.
 pub(super) const LARGE_SEGMENTS: usize = 26;
+
+/// A humanoid that is fitted.
+#[derive(Clone, Copy)]
+pub(super) struct Mannequin<'a> {
+    /// Its landmarks.
+    pub(super) anatomy: &'a Anatomy,
+    /// Its directions in the reference pose.
+    pub(super) axes: BodyAxes,
+    /// Its height, in the file's unit.
+    pub(super) stature: f32,
+}
 
 /// Builds a mesh out of shapes that are described in the world space of a reference pose.
 pub(super) struct Fitter<'a> {

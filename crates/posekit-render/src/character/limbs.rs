@@ -2,12 +2,12 @@
 
 use glam::Vec3;
 
+use posekit::body::{Limb, Side};
 use posekit::skeleton::{JointId, Skeleton};
 
 use crate::mesh::{LoftRing, MaterialId, Shape};
 
-use super::anatomy::{Anatomy, Limb, Side};
-use super::fitter::{Fitter, SEGMENTS, domed};
+use super::fitter::{Fitter, Mannequin, SEGMENTS, domed};
 
 // Radii along the limbs, in statures, at even steps.
 const THIGH: [f32; 5] = [0.046, 0.050, 0.0465, 0.038, 0.0275];
@@ -26,9 +26,10 @@ fn limb_material(side: Side) -> MaterialId {
     }
 }
 
-pub(super) fn add_legs(fitter: &mut Fitter<'_>, anatomy: &Anatomy, stature: f32) {
-    let sole = sole_height(fitter, anatomy, stature);
-    for leg in &anatomy.legs {
+pub(super) fn add_legs(fitter: &mut Fitter<'_>, figure: &Mannequin<'_>) {
+    let stature = figure.stature;
+    let sole = sole_height(fitter, figure);
+    for leg in &figure.anatomy.legs {
         let material = limb_material(leg.side);
         let (hip, knee, ankle) = (
             fitter.at(leg.upper),
@@ -49,24 +50,30 @@ pub(super) fn add_legs(fitter: &mut Fitter<'_>, anatomy: &Anatomy, stature: f32)
             material,
         );
         fitter.ball(leg.lower, ANKLE * stature, MaterialId::Accent);
-        add_foot(fitter, anatomy, leg, sole, stature);
+        add_foot(fitter, figure, leg, sole);
     }
 }
 
 /// How far the sole lies under the ankle, along the figure's up: as the toes say, within reason.
-fn sole_height(fitter: &Fitter<'_>, anatomy: &Anatomy, stature: f32) -> f32 {
+fn sole_height(fitter: &Fitter<'_>, figure: &Mannequin<'_>) -> f32 {
+    let Mannequin {
+        anatomy,
+        axes,
+        stature,
+    } = *figure;
     let drop = |leg: &Limb| {
         let ankle = fitter.at(leg.lower);
         let toe = fitter.at(leg.tip.unwrap_or(leg.end));
-        (ankle - toe).dot(anatomy.up)
+        (ankle - toe).dot(axes.up)
     };
     let mean = anatomy.legs.iter().map(drop).sum::<f32>() * 0.5;
     (mean + 0.012 * stature).clamp(0.036 * stature, 0.062 * stature)
 }
 
 /// Heel to ball on the ankle's joint; the toes on their own joint if they have one.
-fn add_foot(fitter: &mut Fitter<'_>, anatomy: &Anatomy, leg: &Limb, sole: f32, stature: f32) {
-    let up = anatomy.up;
+fn add_foot(fitter: &mut Fitter<'_>, figure: &Mannequin<'_>, leg: &Limb, sole: f32) {
+    let Mannequin { axes, stature, .. } = *figure;
+    let up = axes.up;
     let ankle = fitter.at(leg.lower);
     let level = |v: Vec3| v - up * v.dot(up);
     let toward = leg
@@ -77,7 +84,7 @@ fn add_foot(fitter: &mut Fitter<'_>, anatomy: &Anatomy, leg: &Limb, sole: f32, s
     let ahead = if toward.length() > least {
         toward.normalize()
     } else {
-        anatomy.forward
+        axes.forward
     };
     let across = up.cross(ahead);
     let ground = ankle - up * sole;
@@ -144,13 +151,11 @@ fn add_foot(fitter: &mut Fitter<'_>, anatomy: &Anatomy, leg: &Limb, sole: f32, s
     }
 }
 
-pub(super) fn add_arms(
-    fitter: &mut Fitter<'_>,
-    skeleton: &Skeleton,
-    anatomy: &Anatomy,
-    stature: f32,
-) {
-    let Some(arms) = &anatomy.arms else { return };
+pub(super) fn add_arms(fitter: &mut Fitter<'_>, skeleton: &Skeleton, figure: &Mannequin<'_>) {
+    let stature = figure.stature;
+    let Some(arms) = &figure.anatomy.arms else {
+        return;
+    };
     for arm in arms {
         let material = limb_material(arm.side);
         let (shoulder, elbow, wrist) = (
@@ -158,7 +163,7 @@ pub(super) fn add_arms(
             fitter.at(arm.middle),
             fitter.at(arm.lower),
         );
-        add_collar(fitter, skeleton, anatomy, arm, stature);
+        add_collar(fitter, skeleton, figure, arm);
         fitter.turned(
             arm.upper,
             (shoulder, elbow),
@@ -173,18 +178,17 @@ pub(super) fn add_arms(
             material,
         );
         fitter.ball(arm.lower, WRIST * stature, MaterialId::Accent);
-        add_hand(fitter, skeleton, anatomy, arm, stature);
+        add_hand(fitter, skeleton, figure, arm);
     }
 }
 
 /// From the neck's base to the shoulder, so that a raised shoulder takes its flesh along.
-fn add_collar(
-    fitter: &mut Fitter<'_>,
-    skeleton: &Skeleton,
-    anatomy: &Anatomy,
-    arm: &Limb,
-    stature: f32,
-) {
+fn add_collar(fitter: &mut Fitter<'_>, skeleton: &Skeleton, figure: &Mannequin<'_>, arm: &Limb) {
+    let Mannequin {
+        anatomy,
+        axes,
+        stature,
+    } = *figure;
     let shoulder = fitter.at(arm.upper);
     let carrier = arm
         .root
@@ -192,33 +196,29 @@ fn add_collar(
         .copied()
         .or(skeleton.parent(arm.upper))
         .unwrap_or(arm.upper);
-    let chest = fitter.at(anatomy.trunk[anatomy.spine_count - 1]);
-    let inward = (chest - shoulder).dot(anatomy.left);
-    let start = shoulder + anatomy.left * (inward * 0.72) + anatomy.up * (0.010 * stature);
+    let chest = fitter.at(anatomy.chest());
+    let inward = (chest - shoulder).dot(axes.left);
+    let start = shoulder + axes.left * (inward * 0.72) + axes.up * (0.010 * stature);
     let shape =
         Shape::tapered_capsule(start, 0.034 * stature, shoulder, 0.0325 * stature, SEGMENTS);
     fitter.add(carrier, shape, MaterialId::Base);
 }
 
 /// A mitten with a thumb, or a palm where the fingers have joints of their own.
-fn add_hand(
-    fitter: &mut Fitter<'_>,
-    skeleton: &Skeleton,
-    anatomy: &Anatomy,
-    arm: &Limb,
-    stature: f32,
-) {
-    let s = stature;
+fn add_hand(fitter: &mut Fitter<'_>, skeleton: &Skeleton, figure: &Mannequin<'_>, arm: &Limb) {
+    let Mannequin {
+        axes, stature: s, ..
+    } = *figure;
     let wrist = fitter.at(arm.lower);
-    let along_arm = (wrist - fitter.at(arm.middle)).normalize_or(-anatomy.up);
+    let along_arm = (wrist - fitter.at(arm.middle)).normalize_or(-axes.up);
     let out = arm
         .tip
         .map(|tip| fitter.at(tip) - wrist)
         .filter(|v| v.length() > 0.02 * s)
         .map_or(along_arm, |v| v.normalize_or(along_arm));
     // Hanging or held out, a hand at rest has its thumb to the front.
-    let ahead = anatomy.forward - out * anatomy.forward.dot(out);
-    let thumb_side = ahead.try_normalize().unwrap_or(anatomy.up);
+    let ahead = axes.forward - out * axes.forward.dot(out);
+    let thumb_side = ahead.try_normalize().unwrap_or(axes.up);
     let back = out.cross(thumb_side);
     let fingers = has_fingers(skeleton, arm.lower);
     let length = if fingers { 0.055 * s } else { 0.098 * s };

@@ -2,17 +2,24 @@
 
 use glam::Vec3;
 
+use posekit::body::{Anatomy, Limb, NoAnatomy};
 use posekit::motion::Motion;
 use posekit::pose::GlobalPose;
 use posekit::skeleton::{JointId, Skeleton};
 
-use super::anatomy::Anatomy;
 use super::hinges::hinge_axes;
 use super::reference::reference_pose;
 
 /// Hip to ankle over stature (Winter 2009, figure 4.1: 0.530 less 0.039, with the hip's centre a
 /// little lower than the trochanter's tip).
 const LEG_PER_STATURE: f32 = 0.475;
+
+/// Hip to shoulder, level with each other, over stature (same figure: 0.818 less 0.530, from the
+/// same hip's centre).
+const TRUNK_PER_STATURE: f32 = 0.304;
+
+/// Up to this share the two ways to measure a figure are one.
+const USUAL: f32 = 0.12;
 
 /// A bone whose ends move apart by more than this share of the stature is no bone.
 const LOOSE: f32 = 0.03;
@@ -22,6 +29,8 @@ const SAMPLES: usize = 48;
 /// What a body is fitted to.
 #[derive(Clone, Debug)]
 pub struct Proportions {
+    /// Which joints are a humanoid's landmarks, or why it is none or in doubt.
+    pub anatomy: Result<Anatomy, NoAnatomy>,
     /// A neutral standing pose, as far as the motion shows one.
     pub reference: GlobalPose,
     /// The figure's height in the file's unit: from the legs of a humanoid, else the reference
@@ -39,10 +48,12 @@ impl Proportions {
     /// Those of a motion's skeleton.
     #[must_use]
     pub fn of(motion: &Motion) -> Self {
-        let reference = reference_pose(motion);
-        let stature = stature(motion.skeleton(), &reference);
+        let anatomy = Anatomy::of_motion(motion);
+        let reference = reference_pose(motion, anatomy.as_ref().ok());
+        let stature = stature(anatomy.as_ref().ok(), &reference);
         let loose = loose_joints(motion, stature);
         Self {
+            anatomy,
             reference,
             stature,
             loose,
@@ -54,13 +65,22 @@ impl Proportions {
     #[must_use]
     pub fn at_rest(skeleton: &Skeleton) -> Self {
         let reference = GlobalPose::rest(skeleton);
-        let stature = stature(skeleton, &reference);
+        let anatomy = Anatomy::find(skeleton, &reference);
+        let stature = stature(anatomy.as_ref().ok(), &reference);
         Self {
+            anatomy,
             reference,
             stature,
             loose: vec![false; skeleton.joint_count()],
             hinges: vec![None; skeleton.joint_count()],
         }
+    }
+
+    /// Why a body cannot be fitted although the skeleton may be a person's.
+    #[must_use]
+    pub fn doubt(&self) -> Option<NoAnatomy> {
+        let reason = self.anatomy.as_ref().err().copied();
+        reason.filter(|reason| reason.is_doubt())
     }
 
     /// Whether a joint belongs to the figure: it is no point above a loose joint.
@@ -84,25 +104,40 @@ impl Proportions {
     }
 }
 
-fn stature(skeleton: &Skeleton, reference: &GlobalPose) -> f32 {
+fn stature(anatomy: Option<&Anatomy>, reference: &GlobalPose) -> f32 {
     let (low, high) = reference.bounds();
     let extent = (high - low).max_element();
-    let at = |joint: JointId| reference.positions[joint.index()];
-    let by_legs = Anatomy::find(skeleton, reference).map(|anatomy| {
-        let length = anatomy
-            .legs
-            .iter()
-            .map(|leg| {
-                at(leg.upper).distance(at(leg.middle)) + at(leg.middle).distance(at(leg.lower))
-            })
-            .sum::<f32>();
-        length * 0.5 / LEG_PER_STATURE
-    });
-    let stature = by_legs.unwrap_or(extent);
+    let stature = anatomy.map_or(extent, |anatomy| standing_height(anatomy, reference));
     if stature.is_finite() && stature > 0.0 {
         stature
     } else {
         1.0
+    }
+}
+
+/// How tall a humanoid would stand: by its legs alone, as long as legs and trunk are a person's;
+/// else by both.
+fn standing_height(anatomy: &Anatomy, reference: &GlobalPose) -> f32 {
+    let at = |joint: JointId| reference.positions[joint.index()];
+    let length = |leg: &Limb| {
+        at(leg.upper).distance(at(leg.middle)) + at(leg.middle).distance(at(leg.lower))
+    };
+    let [left, right] = &anatomy.legs;
+    let legs = (length(left) + length(right)) * 0.5;
+    let hips = (at(left.upper) + at(right.upper)) * 0.5;
+    let shoulders = anatomy
+        .arms
+        .as_ref()
+        .map(|[left, right]| (at(left.upper) + at(right.upper)) * 0.5);
+    let trunk = shoulders.map_or(TRUNK_PER_STATURE * legs / LEG_PER_STATURE, |shoulders| {
+        hips.distance(shoulders)
+    });
+    let by_legs = legs / LEG_PER_STATURE;
+    let by_both = (legs + trunk) / (LEG_PER_STATURE + TRUNK_PER_STATURE);
+    if (by_both / by_legs - 1.0).abs() < USUAL {
+        by_legs
+    } else {
+        by_both
     }
 }
 

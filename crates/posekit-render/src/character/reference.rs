@@ -2,37 +2,42 @@
 
 use glam::{Quat, Vec3};
 
+use posekit::body::Anatomy;
 use posekit::motion::Motion;
 use posekit::pose::{GlobalPose, LocalPose};
 use posekit::skeleton::{JointId, Skeleton};
-
-use super::anatomy::{Anatomy, facing};
 
 /// How many frames of a motion are looked at.
 const SAMPLES: usize = 96;
 
 /// A neutral standing pose of a motion's skeleton, facing +Z as well as is known.
 ///
-/// It is the rest pose where that stands upright. Many files have a rest pose that means nothing
-/// (all bones along one axis, no lengths): for those it is the mean orientation of every joint over
-/// the motion, each frame turned to face the same way, feet only while they are near the ground.
-/// Bone lengths are the motion's where it moves joints, the skeleton's elsewhere.
+/// It is the rest pose where that is a posture, with the bone lengths of the motion where it moves
+/// joints. Many files have a rest pose that means nothing (all bones along one axis, no lengths): for
+/// those it is the mean orientation of every joint over the motion, each frame turned to face the
+/// same way, feet only while they are near the ground.
 #[must_use]
-pub(super) fn reference_pose(motion: &Motion) -> GlobalPose {
+pub(super) fn reference_pose(motion: &Motion, anatomy: Option<&Anatomy>) -> GlobalPose {
     let skeleton = motion.skeleton();
     let rest = GlobalPose::rest(skeleton);
     if motion.frame_count() == 0 {
         return rest;
     }
+    let is_posture = |pose: &GlobalPose| anatomy.is_some_and(|anatomy| anatomy.stands(pose));
     let first = motion.pose(0);
-    let moved = differs(&first.translations, skeleton.rest_translations());
-    if !moved && Anatomy::find(skeleton, &rest).is_none_or(|a| a.stands(&rest)) {
-        return rest;
+    if !differs(&first.translations, skeleton.rest_translations()) {
+        if anatomy.is_none() || is_posture(&rest) {
+            return rest;
+        }
+    } else {
+        let mut local = LocalPose::rest(skeleton);
+        local.translations = first.translations;
+        let pose = local.to_global(skeleton);
+        if is_posture(&pose) {
+            return pose;
+        }
     }
-    if let Some(standing) = standing_rest(motion, skeleton) {
-        return standing;
-    }
-    mean_pose(motion, skeleton)
+    mean_pose(motion, anatomy)
 }
 
 /// Whether joints under the roots lie elsewhere in a motion than at rest.
@@ -46,24 +51,13 @@ fn differs(translations: &[Vec3], rest: &[Vec3]) -> bool {
         .any(|(a, b)| a.distance(*b) > 1e-3 * scale)
 }
 
-/// The rest rotations with the motion's bone lengths, if that stands.
-fn standing_rest(motion: &Motion, skeleton: &Skeleton) -> Option<GlobalPose> {
-    let mut local = LocalPose::rest(skeleton);
-    local
-        .translations
-        .copy_from_slice(&motion.pose(0).translations);
-    let pose = local.to_global(skeleton);
-    Anatomy::find(skeleton, &pose)
-        .filter(|a| a.stands(&pose))
-        .map(|_| pose)
-}
-
-fn mean_pose(motion: &Motion, skeleton: &Skeleton) -> GlobalPose {
+fn mean_pose(motion: &Motion, anatomy: Option<&Anatomy>) -> GlobalPose {
+    let skeleton = motion.skeleton();
     let frames = motion.frame_count();
     let count = frames.min(SAMPLES);
     let poses: Vec<GlobalPose> = (0..count)
         .map(|i| motion.pose(i * frames / count).to_global(skeleton))
-        .map(|pose| faced(skeleton, pose))
+        .map(|pose| faced(anatomy, pose))
         .collect();
     let mut mean = poses[0].clone();
     for joint in skeleton.joints() {
@@ -83,14 +77,22 @@ fn mean_pose(motion: &Motion, skeleton: &Skeleton) -> GlobalPose {
 }
 
 /// The pose turned about the vertical so that the figure faces +Z.
-fn faced(skeleton: &Skeleton, mut pose: GlobalPose) -> GlobalPose {
-    let forward = Anatomy::find(skeleton, &pose).map_or(Vec3::Z, |a| a.forward);
+fn faced(anatomy: Option<&Anatomy>, mut pose: GlobalPose) -> GlobalPose {
+    let axes = anatomy.and_then(|anatomy| anatomy.axes(&pose));
+    let forward = axes.map_or(Vec3::Z, |axes| axes.forward);
     let turn = facing(forward).conjugate();
     for (position, orientation) in pose.positions.iter_mut().zip(&mut pose.orientations) {
         *position = turn * *position;
         *orientation = turn * *orientation;
     }
     pose
+}
+
+/// The turn about Y that takes +Z to the horizontal direction nearest to `forward`.
+fn facing(forward: Vec3) -> Quat {
+    let yaw = libm::atan2f(forward.x, forward.z);
+    let (sin, cos) = libm::sincosf(yaw * 0.5);
+    Quat::from_xyzw(0.0, sin, 0.0, cos)
 }
 
 /// The height up to which a joint's frames count: for what comes near the ground only the lowest

@@ -6,8 +6,7 @@ use posekit::skeleton::JointId;
 
 use crate::mesh::{LoftRing, MaterialId, Shape};
 
-use super::anatomy::Anatomy;
-use super::fitter::{DOME, Fitter, LARGE_SEGMENTS, SEGMENTS, curve, domed};
+use super::fitter::{DOME, Fitter, LARGE_SEGMENTS, Mannequin, SEGMENTS, curve, domed};
 
 /// Half depth of the trunk from the crotch (-0.2) over the hips (0) to the neck (1), in statures.
 const DEPTH: &[(f32, f32)] = &[
@@ -53,55 +52,72 @@ struct Frame {
     chest_half_width: f32,
 }
 
-pub(super) fn add_trunk(fitter: &mut Fitter<'_>, anatomy: &Anatomy, stature: f32) {
-    let frame = frame(fitter, anatomy, stature);
-    add_torso(fitter, anatomy, &frame, stature);
-    add_neck(fitter, anatomy, &frame, stature);
-    add_head(fitter, anatomy, stature);
+pub(super) fn add_trunk(fitter: &mut Fitter<'_>, figure: &Mannequin<'_>) {
+    let frame = frame(fitter, figure);
+    add_torso(fitter, figure, &frame);
+    add_neck(fitter, figure, &frame);
+    add_head(fitter, figure);
 }
 
-fn frame(fitter: &Fitter<'_>, anatomy: &Anatomy, stature: f32) -> Frame {
+fn frame(fitter: &Fitter<'_>, figure: &Mannequin<'_>) -> Frame {
+    let Mannequin {
+        anatomy,
+        axes,
+        stature,
+    } = *figure;
     let middle = |a: JointId, b: JointId| (fitter.at(a) + fitter.at(b)) * 0.5;
     let half_span =
-        |a: JointId, b: JointId| (fitter.at(a) - fitter.at(b)).dot(anatomy.left).abs() * 0.5;
+        |a: JointId, b: JointId| (fitter.at(a) - fitter.at(b)).dot(axes.left).abs() * 0.5;
     let [left_leg, right_leg] = &anatomy.legs;
     let hips = middle(left_leg.upper, right_leg.upper);
     let hip_half_width = half_span(left_leg.upper, right_leg.upper) + 0.036 * stature;
-    let neck = anatomy
-        .trunk
-        .get(anatomy.spine_count)
-        .copied()
-        .unwrap_or(anatomy.head);
-    let (shoulder_rise, chest_half_width) = match &anatomy.arms {
-        Some([l, r]) => {
-            let rise = (middle(l.upper, r.upper) - hips).dot(anatomy.up) + 0.030 * stature;
-            (rise, half_span(l.upper, r.upper) * 0.98)
-        }
-        None => ((fitter.at(neck) - hips).dot(anatomy.up), 0.09 * stature),
-    };
-    // The neck's base is a little over the shoulders, on the line to the neck or the head.
+    let neck = anatomy.neck();
     let toward = fitter.at(neck) - hips;
-    let along = toward.dot(anatomy.up).max(1e-6);
-    let top = hips + toward * (shoulder_rise / along).min(1.25);
+    let along = toward.dot(axes.up).max(1e-6);
+    let (top, chest_half_width) = match &anatomy.arms {
+        Some([l, r]) => {
+            let shoulders = middle(l.upper, r.upper);
+            let rise = (shoulders - hips).dot(axes.up) + 0.030 * stature;
+            // The neck's base is a little over the shoulders, on the line to the neck or the head; of
+            // one who carries the head before high shoulders, the shoulders'.
+            let top = if rise < 1.25 * along {
+                hips + toward * (rise / along)
+            } else {
+                shoulders + axes.up * (0.030 * stature)
+            };
+            (top, half_span(l.upper, r.upper) * 0.98)
+        }
+        None => (hips + toward, 0.09 * stature),
+    };
+    let widest_chest = (0.108 * stature).max(0.6 * chest_half_width);
     Frame {
         hips,
         top,
         hip_half_width: hip_half_width.clamp(0.07 * stature, 0.12 * stature),
-        chest_half_width: chest_half_width.clamp(0.066 * stature, 0.108 * stature),
+        chest_half_width: chest_half_width.clamp(0.066 * stature, widest_chest),
     }
 }
 
 /// One skin over pelvis and spine, wide at hips and chest, narrow at the waist: every ring of it
 /// rides on the joint it surrounds.
-fn add_torso(fitter: &mut Fitter<'_>, anatomy: &Anatomy, frame: &Frame, stature: f32) {
+fn add_torso(fitter: &mut Fitter<'_>, figure: &Mannequin<'_>, frame: &Frame) {
+    let Mannequin {
+        anatomy,
+        axes,
+        stature,
+    } = *figure;
     let carriers: Vec<JointId> = std::iter::once(anatomy.pelvis)
         .chain(anatomy.trunk[..anatomy.spine_count].iter().copied())
         .collect();
-    let height = (frame.top - frame.hips).dot(anatomy.up).max(0.1 * stature);
-    let param = |p: Vec3| (p - frame.hips).dot(anatomy.up) / height;
+    let height = (frame.top - frame.hips).dot(axes.up).max(0.1 * stature);
+    let param = |p: Vec3| (p - frame.hips).dot(axes.up) / height;
     let width = width_profile(frame, stature);
     // A spine's first joint can sit right in the pelvis; the pelvis keeps a block of its own.
     let mut cuts: Vec<f32> = carriers.iter().map(|&j| param(fitter.at(j))).collect();
+    // Where the hierarchy comes down to the pelvis, a joint carries what is below it.
+    for climbed in (1..=anatomy.climbed_count.min(carriers.len() - 1)).rev() {
+        cuts[climbed] = cuts[climbed - 1];
+    }
     cuts[0] = -0.2;
     cuts.push(1.0);
     if cuts.len() > 2 {
@@ -131,7 +147,7 @@ fn add_torso(fitter: &mut Fitter<'_>, anatomy: &Anatomy, frame: &Frame, stature:
         for k in 0..=steps {
             let t = from + (to - from) * k as f32 / steps as f32;
             let ring = LoftRing {
-                center: trunk_point(fitter, &carriers, frame, t, height, anatomy.up),
+                center: trunk_point(fitter, &carriers, frame, t, height, axes.up),
                 half_side: curve(&width, t),
                 half_front: curve(DEPTH, t) * stature,
             };
@@ -145,8 +161,8 @@ fn add_torso(fitter: &mut Fitter<'_>, anatomy: &Anatomy, frame: &Frame, stature:
     };
     let skin = Shape::loft(
         &domed(&rings, 0.012 * stature, 0.016 * stature),
-        anatomy.left,
-        -anatomy.forward,
+        axes.left,
+        -axes.forward,
         2.4,
         LARGE_SEGMENTS,
     );
@@ -208,19 +224,40 @@ fn on_line(a: Vec3, b: Vec3, at_a: f32, at_b: f32, t: f32) -> Vec3 {
 }
 
 /// A round neck: one piece for every joint from the neck's base to the head.
-fn add_neck(fitter: &mut Fitter<'_>, anatomy: &Anatomy, frame: &Frame, stature: f32) {
+fn add_neck(fitter: &mut Fitter<'_>, figure: &Mannequin<'_>, frame: &Frame) {
+    let Mannequin {
+        anatomy,
+        axes,
+        stature,
+    } = *figure;
     let radius = 0.029 * stature;
-    let mut carrier = anatomy.trunk[anatomy.spine_count - 1];
-    let mut from = frame.top - anatomy.up * (0.015 * stature);
+    let neck_at = fitter.at(anatomy.neck());
+    // A neck that begins below the shoulders' top leaves the trunk in front.
+    let is_low = (neck_at - frame.top).dot(axes.up) < -0.02 * stature;
+    let mut from = if is_low {
+        let height = (frame.top - frame.hips).dot(axes.up).max(1e-6);
+        let share = (neck_at - frame.hips).dot(axes.up) / height;
+        on_line(frame.hips, frame.top, 0.0, 1.0, share)
+    } else {
+        frame.top - axes.up * (0.015 * stature)
+    };
+    let mut carrier = anatomy.chest();
     let neck = anatomy.trunk[anatomy.spine_count..].iter().copied();
-    // The last piece reaches into the skull.
-    let skull = fitter.at(anatomy.head) + anatomy.up * (0.03 * stature);
+    // The last piece reaches into the skull, from below or from behind.
+    let into_skull = if is_low { 0.0 } else { 0.03 * stature };
+    let skull = fitter.at(anatomy.head) + axes.up * into_skull;
     for (joint, to) in neck
         .map(|joint| (joint, fitter.at(joint)))
         .chain(std::iter::once((anatomy.head, skull)))
         .collect::<Vec<_>>()
     {
-        if (to - from).dot(anatomy.up) > 0.004 * stature {
+        let way = to - from;
+        let is_long = if is_low {
+            way.length()
+        } else {
+            way.dot(axes.up)
+        };
+        if is_long > 0.004 * stature {
             let shape = Shape::tapered_capsule(from, radius * 1.05, to, radius, SEGMENTS);
             fitter.add(carrier, shape, MaterialId::Base);
             from = to;
@@ -229,12 +266,17 @@ fn add_neck(fitter: &mut Fitter<'_>, anatomy: &Anatomy, frame: &Frame, stature: 
     }
 }
 
-fn add_head(fitter: &mut Fitter<'_>, anatomy: &Anatomy, stature: f32) {
+fn add_head(fitter: &mut Fitter<'_>, figure: &Mannequin<'_>) {
+    let Mannequin {
+        anatomy,
+        axes,
+        stature,
+    } = *figure;
     let joint = fitter.at(anatomy.head);
-    let up = anatomy.up;
+    let up = axes.up;
     let top = joint + up * (0.118 * stature);
     let center = top - up * (HEAD_HALF * stature);
-    let (left, forward) = (anatomy.left, anatomy.forward);
+    let (left, forward) = (axes.left, axes.forward);
     let rings: Vec<LoftRing> = HEAD
         .iter()
         .map(|&[height, half_width, half_depth, ahead]| LoftRing {

@@ -4,11 +4,12 @@ use std::sync::Arc;
 
 use glam::{Affine3, Mat3, Vec3};
 
+use posekit::body::{Anatomy, NoAnatomy};
 use posekit::motion::Motion;
 use posekit::pose::{GlobalPose, LocalPose, forward_kinematics};
-use posekit::skeleton::{JointId, Skeleton};
+use posekit::skeleton::JointId;
 
-use crate::character::{Anatomy, Proportions, axes_mesh, body_mesh, bone_mesh, octahedron_mesh};
+use crate::character::{Proportions, axes_mesh, body_mesh, bone_mesh, octahedron_mesh};
 use crate::mesh::Mesh;
 use crate::theme::CharacterColors;
 
@@ -40,6 +41,7 @@ pub struct Actor {
     style: SkeletonStyle,
     colors: CharacterColors,
     stature: f32,
+    doubt: Option<NoAnatomy>,
     ground_height: f32,
     facing_yaw_rad: f32,
     samples: Arc<[Sample]>,
@@ -68,7 +70,8 @@ impl Actor {
         let tips = tips(&mesh);
         let poses = sampled_poses(&motion);
         let ground_height = ground_height(&poses, &mesh);
-        let facing_yaw_rad = facing_yaw(skeleton, &poses);
+        let facing_yaw_rad = facing_yaw(proportions.anatomy.as_ref().ok(), &poses);
+        let doubt = proportions.doubt();
         let samples = poses
             .into_iter()
             .map(|(time_secs, pose)| {
@@ -91,6 +94,7 @@ impl Actor {
             style,
             colors,
             stature,
+            doubt,
             ground_height,
             facing_yaw_rad,
             samples,
@@ -170,6 +174,13 @@ impl Actor {
     #[must_use]
     pub fn style(&self) -> SkeletonStyle {
         self.style
+    }
+
+    /// Why its joints are drawn as bones although a body was asked for: the skeleton may be a person's,
+    /// but which joint is what is in doubt. `None` in other styles and for everything else.
+    #[must_use]
+    pub fn doubt(&self) -> Option<NoAnatomy> {
+        self.doubt.filter(|_| self.style == SkeletonStyle::Body)
     }
 
     /// Its colours.
@@ -368,11 +379,11 @@ fn ground_height(poses: &[(f64, GlobalPose)], mesh: &Mesh) -> f32 {
 
 /// The mean of where a humanoid faces; where it turns all around, where it faces first. 0 for
 /// others.
-fn facing_yaw(skeleton: &Skeleton, poses: &[(f64, GlobalPose)]) -> f32 {
+fn facing_yaw(anatomy: Option<&Anatomy>, poses: &[(f64, GlobalPose)]) -> f32 {
     let forwards: Vec<Vec3> = poses
         .iter()
-        .filter_map(|(_, pose)| Anatomy::find(skeleton, pose))
-        .map(|anatomy| Vec3::new(anatomy.forward.x, 0.0, anatomy.forward.z))
+        .filter_map(|(_, pose)| anatomy?.axes(pose))
+        .map(|axes| Vec3::new(axes.forward.x, 0.0, axes.forward.z))
         .filter_map(Vec3::try_normalize)
         .collect();
     let sum: Vec3 = forwards.iter().sum();

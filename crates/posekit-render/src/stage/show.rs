@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use glam::{Affine3, Vec3};
 
+use posekit::body::{Side, side_of_joint};
 use posekit::pose::GlobalPose;
 use posekit::skeleton::{JointId, Skeleton};
 
 use crate::camera::{Camera, Projection};
-use crate::character::{Side, side_of_joint};
 use crate::color::Color;
 use crate::scene::{Label, Model, Polyline, Scene, Shadow};
 use crate::theme::CharacterColors;

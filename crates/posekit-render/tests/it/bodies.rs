@@ -4,11 +4,12 @@ use std::sync::Arc;
 
 use glam::Vec3;
 
+use posekit::body::{Anatomy, NoAnatomy};
 use posekit::motion::Motion;
 use posekit::pose::GlobalPose;
 use posekit::sample::{ArmConfig, arm};
 use posekit::skeleton::{Skeleton, SkeletonBuilder};
-use posekit_render::character::{Anatomy, Proportions, body_mesh};
+use posekit_render::character::{Proportions, body_mesh};
 
 use crate::figures::{person, waving};
 
@@ -89,8 +90,9 @@ fn four_legs_make_no_humanoid_whatever_they_are_called() {
         };
         parts.map(|part| format!("{side}{part}"))
     });
-    for skeleton in [legs, arms] {
-        assert_eq!(Anatomy::find(&skeleton, &GlobalPose::rest(&skeleton)), None);
+    for (skeleton, why) in [(legs, NoAnatomy::ManyLimbs), (arms, NoAnatomy::FourLegs)] {
+        let rest = GlobalPose::rest(&skeleton);
+        assert_eq!(Anatomy::find(&skeleton, &rest), Err(why));
         let mesh = body_mesh(&skeleton, &Proportions::at_rest(&skeleton));
         for joint in skeleton.joints() {
             let carries = mesh
@@ -110,7 +112,7 @@ fn a_person_is_found_in_any_pose() {
     let skeleton = motion.skeleton();
     for frame in 0..motion.frame_count() {
         let pose = motion.pose(frame).to_global(skeleton);
-        assert!(Anatomy::find(skeleton, &pose).is_some(), "{frame}");
+        assert!(Anatomy::find(skeleton, &pose).is_ok(), "{frame}");
     }
 }
 

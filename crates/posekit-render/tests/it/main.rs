@@ -7,10 +7,12 @@
 )]
 
 mod bodies;
+mod conventions;
 mod cpu_pictures;
 mod figures;
 mod films;
 #[cfg(feature = "gpu")]
 mod gpu_pictures;
+mod inside;
 mod stages;
 mod surroundings;

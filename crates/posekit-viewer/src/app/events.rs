@@ -112,6 +112,7 @@ impl Viewer {
 
     /// What follows when a clip was opened or read again.
     pub(super) fn opened(&mut self, ctx: &egui::Context, id: ClipId, thumbnail: ColorImage) {
+        self.tell_doubt(id, ctx.input(|i| i.time));
         let picture = Texture::new(ctx, thumbnail);
         self.pictures.insert(id, picture);
         let open = self.session.clips().iter().find(|open| open.id == id);
@@ -126,6 +127,16 @@ impl Viewer {
     pub(super) fn watch_files(&self) {
         #[cfg(not(target_arch = "wasm32"))]
         self.watch.set(&self.session);
+    }
+
+    /// Says why a figure is drawn as bones although bodies are shown.
+    fn tell_doubt(&mut self, clip: ClipId, now: f64) {
+        let open = self.session.clips().iter().find(|open| open.id == clip);
+        let doubt = open.and_then(|open| Some((&open.clip.name, open.doubt()?)));
+        if let Some((name, why)) = doubt {
+            let text = format!("{name} is drawn as bones, not as a body: {why}");
+            self.notices.add(NoticeKind::Done, text, now);
+        }
     }
 
     fn tell_changed(&mut self, clip: ClipId, now: f64) {

@@ -12,9 +12,10 @@
 
 use glam::Vec3;
 
-use super::statistics::{densest, median};
+use super::statistics::{densest, median, most_frequent};
 use super::{CheckConfig, Figure, whole_up};
 use crate::motion::GlobalMotion;
+use crate::skeleton::JointId;
 
 /// The share of all frames in which a figure stands, at least. Runners stand in half of them.
 const FLOOR_SHARE: f64 = 0.3;
@@ -39,6 +40,8 @@ const LOW_SHARE: f64 = 0.15;
 pub struct Contact {
     /// Which of [`Figure::feet`].
     pub foot: usize,
+    /// The joint of the foot that it stands on: mostly the one that moves least.
+    pub joint: JointId,
     /// The first frame.
     pub first: usize,
     /// The last frame.
@@ -109,14 +112,15 @@ pub fn floor_contacts(
 
 /// The ways of one foot's joints: joint after joint, all frames of each.
 struct FootTrack {
-    joints: Vec<Vec<Vec3>>,
+    joints: Vec<(JointId, Vec<Vec3>)>,
 }
 
 impl FootTrack {
     fn new(global: &GlobalMotion, figure: &Figure, foot: usize) -> Self {
         let way = |&joint| {
             let frames = 0..global.frame_count();
-            frames.map(|frame| global.position(frame, joint)).collect()
+            let places = frames.map(|frame| global.position(frame, joint));
+            (joint, places.collect())
         };
         Self {
             joints: figure.feet[foot].joints.iter().map(way).collect(),
@@ -125,8 +129,8 @@ impl FootTrack {
 
     /// The height of the lowest joint in each frame.
     fn lowest(&self) -> Vec<f64> {
-        let mut lowest = vec![f64::MAX; self.joints[0].len()];
-        for way in &self.joints {
+        let mut lowest = vec![f64::MAX; self.joints[0].1.len()];
+        for (_, way) in &self.joints {
             for (lowest, position) in lowest.iter_mut().zip(way) {
                 *lowest = lowest.min(f64::from(position.y));
             }
@@ -136,8 +140,8 @@ impl FootTrack {
 
     /// How the foot moves in each step from one frame to the next.
     fn steps(&self, floor: f64, limits: &Limits) -> Vec<FootStep> {
-        let mut steps = vec![FootStep::default(); self.joints[0].len().saturating_sub(1)];
-        for way in &self.joints {
+        let mut steps = vec![FootStep::default(); self.joints[0].1.len().saturating_sub(1)];
+        for (joint, way) in &self.joints {
             let low_below = usual_lowest(way, floor) + limits.low;
             let is_low = |position: Vec3| f64::from(position.y) <= low_below;
             for (step, pair) in steps.iter_mut().zip(way.windows(2)) {
@@ -148,9 +152,9 @@ impl FootTrack {
                 let along = moved * Vec3::new(1.0, 0.0, 1.0);
                 if step
                     .least
-                    .is_none_or(|least| along.length() < least.length())
+                    .is_none_or(|(_, least)| along.length() < least.length())
                 {
-                    step.least = Some(along);
+                    step.least = Some((*joint, along));
                 }
                 let length = f64::from(along.length());
                 if f64::from(moved.y).abs() <= limits.rise {
@@ -165,9 +169,9 @@ impl FootTrack {
 /// A foot's step from one frame to the next.
 #[derive(Clone, Debug)]
 struct FootStep {
-    /// The way along the floor of the low joint that moves least; `None` where no joint is low
+    /// The low joint that moves least, and its way along the floor; `None` where no joint is low
     /// before and after it.
-    least: Option<Vec3>,
+    least: Option<(JointId, Vec3)>,
     /// How far the low joint moves along the floor that moves least among those that hardly rise
     /// or sink; `f64::MAX` where there is none.
     level: f64,
@@ -184,7 +188,8 @@ impl Default for FootStep {
 
 impl FootStep {
     fn length(&self) -> f64 {
-        self.least.map_or(f64::MAX, |way| f64::from(way.length()))
+        self.least
+            .map_or(f64::MAX, |(_, way)| f64::from(way.length()))
     }
 }
 
@@ -235,18 +240,18 @@ fn planted(foot: usize, steps: &[FootStep], slowest: &[f64], limits: &Limits) ->
             step += 1;
         }
         if sure_steps >= 1 && step - first >= limits.shortest {
-            let ways: Vec<Vec3> = steps[first..step]
-                .iter()
-                .filter_map(|step| step.least)
-                .collect();
+            let least = steps[first..step].iter().filter_map(|step| step.least);
+            let (joints, ways): (Vec<JointId>, Vec<Vec3>) = least.unzip();
             let standing = standing_part(&ways, limits.landing);
-            contacts.push(Contact {
+            let joint = most_frequent(joints.into_iter());
+            contacts.extend(joint.map(|joint| Contact {
                 foot,
+                joint,
                 first,
                 last: step,
                 slide: standing.iter().copied().sum(),
                 slide_steps: standing.len(),
-            });
+            }));
         }
         step = step.max(first + 1);
     }
@@ -295,7 +300,7 @@ mod tests {
     fn steady(speed: f32, step_count: usize) -> Vec<FootStep> {
         let way = speed / 30.0 * Vec3::X;
         let step = FootStep {
-            least: Some(way),
+            least: Some((JointId::new(3), way)),
             level: f64::from(way.length()),
         };
         vec![step; step_count]

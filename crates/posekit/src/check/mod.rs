@@ -4,7 +4,8 @@
 //! channel values that a file holds. Both return [`Finding`]s: a code, a severity, joints and frames,
 //! a number and a sentence. A check finds things; it repairs nothing.
 //!
-//! Lengths are judged against the figure's height ([`Figure::height`]), speeds against the frame time,
+//! Feet are those of [`body`](crate::body); of a foot the joint is named that a finding is about, the
+//! lowest one or the one that stands, not the ankle. Lengths are judged against the figure's height ([`Figure::height`]), speeds against the frame time,
 //! and steps against the steps around them by median and median absolute deviation, so that the same
 //! thresholds ([`CheckConfig`]) serve metres and centimetres, 30 and 240 frames a second, walks and
 //! dances. Y is up. Frames count from 0.
@@ -55,7 +56,7 @@ pub use channels::check_channels;
 pub use config::CheckConfig;
 pub use contact::{Contact, FloorContacts, floor_contacts};
 pub use euler_branch::{EulerBranch, EulerStep, EulerTracker};
-pub use figure::{Figure, Foot, figure};
+pub use figure::{Figure, figure};
 pub use finding::{Finding, FindingCode, FrameRange, Severity, Unit, sort_findings};
 
 use crate::motion::{GlobalMotion, Motion};
@@ -88,7 +89,7 @@ pub fn check_motion(motion: &Motion, global: &GlobalMotion, config: &CheckConfig
     proportions::check(motion, global, &figure, config, &mut findings);
     let contacts = floor_contacts(global, &figure, config);
     if let Some(contacts) = &contacts {
-        floor::check(contacts, &figure, motion, config, &mut findings);
+        floor::check(contacts, &figure, global, config, &mut findings);
         sliding::check(contacts, &figure, motion, config, &mut findings);
         timing::check_playback(global, &figure, contacts, config, &mut findings);
     }

@@ -41,9 +41,9 @@ pub(super) fn check(
         && slides.len() as f64 >= STEADY_SHARE * contacts.contacts.len() as f64
         && mean_direction(&slides).length() >= STEADY_DIRECTION;
     if is_steady {
-        findings.push(steady_finding(&slides, contacts.contacts.len(), figure));
+        findings.push(steady_finding(&slides, contacts.contacts.len()));
     } else {
-        findings.extend(slides.iter().map(|slide| finding(slide, figure, motion)));
+        findings.extend(slides.iter().map(|slide| finding(slide, motion)));
     }
 }
 
@@ -76,11 +76,8 @@ fn mean_direction(slides: &[Slide<'_>]) -> Vec3 {
     sum / slides.len() as f32
 }
 
-fn steady_finding(slides: &[Slide<'_>], contact_count: usize, figure: &Figure) -> Finding {
-    let mut feet: Vec<JointId> = slides
-        .iter()
-        .map(|slide| figure.feet[slide.contact.foot].base())
-        .collect();
+fn steady_finding(slides: &[Slide<'_>], contact_count: usize) -> Finding {
+    let mut feet: Vec<JointId> = slides.iter().map(|slide| slide.contact.joint).collect();
     feet.sort_unstable();
     feet.dedup();
     let of =
@@ -109,8 +106,8 @@ fn steady_finding(slides: &[Slide<'_>], contact_count: usize, figure: &Figure) -
     }
 }
 
-fn finding(slide: &Slide<'_>, figure: &Figure, motion: &Motion) -> Finding {
-    let joint = figure.feet[slide.contact.foot].base();
+fn finding(slide: &Slide<'_>, motion: &Motion) -> Finding {
+    let joint = slide.contact.joint;
     let name = motion.skeleton().unique_name(joint);
     Finding {
         code: FindingCode::FootSliding,

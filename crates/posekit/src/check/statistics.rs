@@ -1,5 +1,9 @@
 //! Statistics that a few wild values do not sway.
 
+use std::collections::BTreeMap;
+
+use crate::skeleton::JointId;
+
 /// Scales a median absolute deviation to the standard deviation of a normal distribution.
 const MAD_TO_SIGMA: f64 = 1.4826;
 
@@ -34,6 +38,19 @@ pub(super) fn densest(values: &mut [f64], share: f64) -> f64 {
         .windows(wanted)
         .min_by(|a, b| (a[wanted - 1] - a[0]).total_cmp(&(b[wanted - 1] - b[0])));
     interval.map_or(0.0, |interval| 0.5 * (interval[0] + interval[wanted - 1]))
+}
+
+/// The joint that occurs most often, the first of several; `None` of nothing.
+pub(super) fn most_frequent(joints: impl Iterator<Item = JointId>) -> Option<JointId> {
+    let mut counts: BTreeMap<JointId, usize> = BTreeMap::new();
+    for joint in joints {
+        *counts.entry(joint).or_default() += 1;
+    }
+    let most = counts.values().copied().max()?;
+    counts
+        .into_iter()
+        .find(|&(_, count)| count == most)
+        .map(|(joint, _)| joint)
 }
 
 #[cfg(test)]

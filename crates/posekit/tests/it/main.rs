@@ -3,6 +3,7 @@
 #![allow(missing_docs, reason = "a test binary has no documentation of its own")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
 
+mod body;
 mod figures;
 mod ik;
 mod inbetween;

@@ -1,5 +1,6 @@
 //! The facts about a file, before anybody words them.
 
+use posekit::body::{Anatomy, NoAnatomy};
 use posekit::figure::{LengthUnit, RestPose, guess_unit};
 use posekit::motion::{Channel, Motion, PositionPolicy};
 use posekit::skeleton::{JointId, Skeleton};
@@ -49,6 +50,8 @@ pub(super) struct Facts {
     pub(super) up: Option<UpAxis>,
     /// What the rest pose looks like.
     pub(super) rest_pose: RestPose,
+    /// Which joints are a person's landmarks, or why that is not known.
+    pub(super) anatomy: Result<Anatomy, NoAnatomy>,
     /// Left and right joints that mirror each other, by unique name.
     pub(super) pairs: Vec<(String, String)>,
     /// The skeleton, for the tree.
@@ -87,6 +90,7 @@ impl Facts {
             unit: guess_unit(motion_height.unwrap_or(rest_height)),
             up,
             rest_pose: RestPose::of(&skeleton),
+            anatomy: Anatomy::of_motion(&motion),
             pairs: pairs
                 .iter()
                 .map(|pair| (name(pair.left), name(pair.right)))

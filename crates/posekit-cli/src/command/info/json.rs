@@ -1,5 +1,6 @@
 //! The facts, for programs.
 
+use posekit::body::{Certainty, Limb};
 use posekit_formats::bvh::edit::UpAxis;
 use posekit_formats::report::{Severity, Warning};
 use serde_json::{Value, json};
@@ -50,11 +51,45 @@ pub(super) fn object(name: &str, facts: &Facts, loaded: &Loaded) -> String {
             UpAxis::Z => "z",
         }),
         "rest_pose": readable::rest_pose(&facts.rest_pose),
+        "landmarks": landmarks(facts),
         "pairs": pairs,
         "joints": joints,
         "notices": notices,
     });
     format!("{object}\n")
+}
+
+/// The joints of trunk and limbs by index, and how sure that is; of what is no person's only why.
+fn landmarks(facts: &Facts) -> Value {
+    let anatomy = match &facts.anatomy {
+        Ok(anatomy) => anatomy,
+        Err(why) => return json!({"certainty": "none", "reason": why.to_string()}),
+    };
+    let limb = |limb: &Limb, names: [&str; 3]| {
+        let joints = [limb.upper, limb.middle, limb.lower];
+        let entries = names.into_iter().zip(joints);
+        let entries = entries.map(|(name, joint)| (name.to_owned(), json!(joint.index())));
+        Value::Object(entries.collect())
+    };
+    let leg = |side: usize| limb(&anatomy.legs[side], ["hip", "knee", "ankle"]);
+    let arm = |side: usize| {
+        let arms = anatomy.arms.as_ref();
+        arms.map(|arms| limb(&arms[side], ["shoulder", "elbow", "wrist"]))
+    };
+    json!({
+        "certainty": match anatomy.certainty {
+            Certainty::Sure => "sure",
+            Certainty::Likely => "likely",
+        },
+        "pelvis": anatomy.pelvis.index(),
+        "chest": anatomy.chest().index(),
+        "neck": anatomy.neck().index(),
+        "head": anatomy.head.index(),
+        "left_leg": leg(0),
+        "right_leg": leg(1),
+        "left_arm": arm(0),
+        "right_arm": arm(1),
+    })
 }
 
 /// What the reader noticed.

@@ -1,5 +1,6 @@
 //! The facts, for people.
 
+use posekit::body::{Certainty, Limb};
 use posekit::figure::{ArmPosture, RestPose, RestPoseKind, STATURE_RANGE_METRES};
 use posekit::motion::Channel;
 use posekit::rotation::Axis;
@@ -31,6 +32,9 @@ pub(super) fn block(name: &str, facts: &Facts, loaded: &Loaded, with_tree: bool)
     line(&mut text, "up", up(facts));
     line(&mut text, "rest pose", &rest_pose(&facts.rest_pose));
     line(&mut text, "left/right", &pairs(facts));
+    for (index, value) in landmarks(facts).into_iter().enumerate() {
+        line(&mut text, if index == 0 { "landmarks" } else { "" }, &value);
+    }
     for (index, notice) in loaded.notices.iter().enumerate() {
         line(
             &mut text,
@@ -201,6 +205,44 @@ pub(super) fn rest_pose(rest: &RestPose) -> String {
 
 fn end((axis, is_positive): (Axis, bool)) -> String {
     format!("{}{}", if is_positive { '+' } else { '-' }, axis.letter())
+}
+
+/// How sure the landmarks are, in words.
+fn certainty(certainty: Certainty) -> &'static str {
+    match certainty {
+        Certainty::Sure => "sure: names, lengths and angles agree",
+        Certainty::Likely => "likely: not all of names, lengths and angles say so",
+    }
+}
+
+/// The joints of the trunk and the limbs, and how sure that is.
+fn landmarks(facts: &Facts) -> Vec<String> {
+    let anatomy = match &facts.anatomy {
+        Ok(anatomy) => anatomy,
+        Err(why) if why.is_doubt() => return vec![format!("unsure, drawn as bones: {why}")],
+        Err(why) => return vec![format!("not a person's: {why}")],
+    };
+    let name = |joint| one_line(facts.skeleton.unique_name(joint));
+    let limb = |limb: &Limb| {
+        [limb.upper, limb.middle, limb.lower]
+            .map(name)
+            .join(" \u{b7} ")
+    };
+    let trunk = [
+        anatomy.pelvis,
+        anatomy.chest(),
+        anatomy.neck(),
+        anatomy.head,
+    ];
+    let [pelvis, chest, neck, head] = trunk.map(name);
+    let mut lines = vec![
+        certainty(anatomy.certainty).to_owned(),
+        format!("pelvis {pelvis}, chest {chest}, neck {neck}, head {head}"),
+    ];
+    for [left, right] in std::iter::once(&anatomy.legs).chain(&anatomy.arms) {
+        lines.push(format!("{} | {}", limb(left), limb(right)));
+    }
+    lines
 }
 
 fn pairs(facts: &Facts) -> String {

@@ -159,7 +159,11 @@ pub(super) fn prepare(
     let actors = motions
         .enumerate()
         .map(|(index, motion)| actor(motion, style, index));
-    let mut stage = Stage::new(actors.collect(), options);
+    let actors: Vec<Actor> = actors.collect();
+    if let Some(why) = actors.first().and_then(Actor::doubt) {
+        warnings.push(format!("{name}: drawn as bones, not as a body: {why}"));
+    }
+    let mut stage = Stage::new(actors, options);
     if let Some(scene) = &scene {
         stage.set_surroundings(surroundings(scene, &name, &mut warnings));
     }

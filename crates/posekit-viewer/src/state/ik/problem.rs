@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
+use posekit::body::Anatomy;
 use posekit::ik::{Base, IkProblem, IkTarget, JointLimits, Movable, StartJoint, TraceDetail};
 use posekit::pose::GlobalPose;
 use posekit::skeleton::{JointId, Skeleton};
 use posekit_formats::bvh::Bvh;
 use posekit_formats::bvh::edit::joint_limit;
-use posekit_render::character::Anatomy;
 
 use super::{Goals, IkSettings, Pin, Start, Target};
 use crate::state::edit::freedom;
@@ -29,10 +29,16 @@ pub struct ProblemParts<'a> {
     pub settings: &'a IkSettings,
 }
 
-/// Where the limb of a joint starts: the highest joint over it that has no sibling limb between.
-/// `None` for a root, which is no limb's.
+/// Where the limb of a joint starts: a person's arm at the shoulder and leg at the hip, for what hangs
+/// no farther out than the wrist or ankle; else the highest joint over it that has no sibling limb
+/// between. `None` for a root, which is no limb's.
 #[must_use]
 pub fn auto_start(skeleton: &Skeleton, effector: JointId) -> Option<JointId> {
+    let anatomy = Anatomy::find(skeleton, &GlobalPose::rest(skeleton)).ok();
+    let limb_start = anatomy.and_then(|anatomy| anatomy.limb_start(skeleton, effector));
+    if limb_start.is_some() {
+        return limb_start;
+    }
     let mut start = skeleton.parent(effector)?;
     while let Some(above) = skeleton
         .parent(start)
@@ -167,7 +173,8 @@ pub fn feet_and_hands(
     pose: &GlobalPose,
 ) -> Option<([JointId; 2], Option<[JointId; 2]>)> {
     let anatomy = Anatomy::find(skeleton, &GlobalPose::rest(skeleton))
-        .or_else(|| Anatomy::find(skeleton, pose))?;
+        .or_else(|_| Anatomy::find(skeleton, pose))
+        .ok()?;
     let feet = [anatomy.legs[0].lower, anatomy.legs[1].lower];
     let hands = anatomy.arms.map(|arms| [arms[0].lower, arms[1].lower]);
     Some((feet, hands))

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use posekit::body::NoAnatomy;
 use posekit::keyframe::edit::SAME_TIME_SECS;
 use posekit::skeleton::JointId;
 use posekit_render::stage::{
@@ -236,6 +237,12 @@ impl OpenClip {
     #[must_use]
     pub fn scale(&self) -> f32 {
         self.scaled.as_ref().map_or(1.0, |(factor, _)| *factor)
+    }
+
+    /// Why the figure is drawn as bones although bodies are shown.
+    #[must_use]
+    pub fn doubt(&self) -> Option<NoAnatomy> {
+        self.actor.doubt()
     }
 }
 
