@@ -7,6 +7,7 @@ use posekit::rotation::EulerOrder;
 use posekit_formats::bvh::Bvh;
 use posekit_formats::scene::{self, Scene, Shot};
 
+use crate::console;
 use crate::failure::{Failure, one_line};
 
 /// Whether a file of this name is a scene.
@@ -15,13 +16,16 @@ pub(crate) fn is_scene(path: &Path) -> bool {
     name.is_some_and(scene::is_scene_name)
 }
 
-/// Reads a scene file.
+/// Reads a scene file, and warns of what in it will not come out as it may have been meant.
 pub(crate) fn read(path: &Path) -> Result<Scene, Failure> {
     let bytes = fs::read(path).map_err(|error| Failure::cannot_read(path, &error))?;
-    scene::read(&bytes).map_err(|error| {
-        let text = error.in_file(&path.display().to_string());
-        Failure::new(one_line(&text))
-    })
+    let name = path.display().to_string();
+    let (scene, warnings) = scene::read_with_warnings(&bytes)
+        .map_err(|error| Failure::new(one_line(&error.in_file(&name))))?;
+    for warning in &warnings {
+        console::warning(&one_line(&warning.in_file(&name)));
+    }
+    Ok(scene)
 }
 
 /// Puts a scene together with the files that it names, which stand beside it.

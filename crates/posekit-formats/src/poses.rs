@@ -69,7 +69,7 @@ pub fn is_poses_name(name: &str) -> bool {
 /// [`SceneReadError`] with every problem: text that is no TOML, a newer version, and fields that are
 /// missing, unknown, of another kind or inconsistent.
 pub fn read(bytes: &[u8]) -> Result<Vec<SavedPose>, SceneReadError> {
-    read_as(bytes, FORMAT, VERSION, |fields, problems| {
+    read_as(bytes, FORMAT, VERSION, |fields, _version, problems| {
         let poses = fields.tables("pose", problems);
         let poses = poses.into_iter().map(|mut pose| {
             let read = self::pose(&mut pose, problems);

@@ -27,6 +27,68 @@ target = [0, 1, 0]
 vertical_fov_deg = { keys = [{ at = 1, value = 20, curve = "linear" }, { at = 2, value = 60 }] }
 "#;
 
+/// The arm's elbow from 0 to some degrees in a second, about Z.
+fn spin(folder: &Folder, degrees: &str, mode: &str) {
+    let scene = SCENE
+        .replace("value = [90, 0, 0]", &format!("value = [{degrees}, 0, 0]"))
+        .replace("\"ZXY\"\n", &format!("\"ZXY\"\n{mode}"));
+    folder.write("spin.posekit.toml", scene);
+}
+
+#[test]
+fn euler_keys_turn_as_far_as_they_say_when_baked_and_posed() {
+    let folder = Folder::with_arm();
+    for (degrees, at_a_quarter) in [("360", 90.0), ("270", 67.5), ("720", 180.0)] {
+        spin(&folder, degrees, "");
+        folder.succeed(&[
+            "keys",
+            "bake",
+            "spin.posekit.toml",
+            "-o",
+            "out.bvh",
+            "--fps",
+            "4",
+        ]);
+        let text = folder.read("out.bvh");
+        let frames: Vec<&str> = text.lines().rev().take(5).collect();
+        let numbers: Vec<f64> = frames[3]
+            .split_whitespace()
+            .map(|n| n.parse().unwrap())
+            .collect();
+        let z = numbers[numbers.len() - 3];
+        assert!((z - at_a_quarter).abs() < 1e-3, "{degrees}: {z}");
+        let fk = folder.run(&["fk", "spin.posekit.toml", "-o", "out.csv"]);
+        assert_eq!((fk.code, fk.stderr.contains("warning")), (Some(0), false));
+    }
+}
+
+#[test]
+fn a_turn_that_quaternions_lose_is_told_with_its_place() {
+    let folder = Folder::with_arm();
+    spin(&folder, "270", "mode = \"quaternion\"\n");
+    let commands: [&[&str]; 3] = [
+        &["keys", "bake", "spin.posekit.toml", "-o", "out.bvh"],
+        &["fk", "spin.posekit.toml", "-o", "out.csv"],
+        &["convert", "spin.posekit.toml", "other.bvh"],
+    ];
+    for args in commands {
+        let ran = folder.run(args);
+        assert_eq!(ran.code, Some(0), "{}", ran.stderr);
+        let place =
+            "warning: spin.posekit.toml:14:21: track[0].keys[1].value: quaternions go 90.0 degrees";
+        assert!(ran.stderr.contains(place), "{args:?}: {}", ran.stderr);
+        assert_eq!(
+            ran.stderr.matches("quaternions go").count(),
+            1,
+            "once: {}",
+            ran.stderr
+        );
+    }
+    spin(&folder, "90", "mode = \"quaternion\"\n");
+    let ran = folder.run(commands[0]);
+    assert!(!ran.stderr.contains("warning"), "{}", ran.stderr);
+}
+
 fn folder() -> Folder {
     let folder = Folder::with_arm();
     folder.write("bend.posekit.toml", SCENE);
@@ -46,7 +108,10 @@ fn keys_are_listed_and_baked() {
         "{text}"
     );
     let csv = folder.succeed(&["keys", "print", "bend.posekit.toml", "--csv"]);
-    assert!(csv.contains("\"elbow\",rotation,1,linear,0,0,0,1"), "{csv}");
+    assert!(
+        csv.contains("\"elbow\",rotation ZXY deg,1,linear,0,0,0"),
+        "{csv}"
+    );
     folder.succeed(&["keys", "bake", "bend.posekit.toml", "-o", "out.bvh"]);
     let text = folder.read("out.bvh");
     assert!(

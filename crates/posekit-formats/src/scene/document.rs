@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use glam::{DQuat, DVec3, Vec3};
-use posekit::keyframe::{Animation, KeyedCamera, KeyedLight, KeyedTransform, Track};
+use posekit::keyframe::{
+    Animation, EulerTrack, KeyedCamera, KeyedLight, KeyedTransform, RotationTrack, Track,
+};
 use posekit::rotation::EulerOrder;
 use posekit::skeleton::{JointId, Skeleton, SkeletonBuilder, SkeletonError};
 
@@ -82,18 +84,21 @@ pub struct JointTrack {
 /// What of a joint is keyed. Tracks are shared, so that a history can keep every state of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub enum JointValues {
-    /// Its rotation in the parent's space.
+    /// Its rotation in the parent's space as quaternions, which take the short way from key to key.
     Rotation {
         /// The keys.
         track: Arc<Track<DQuat>>,
         /// How the file writes them, if not as quaternions.
         euler: Option<EulerNotation>,
     },
+    /// Its rotation in the parent's space as Euler curves: three angles that turn as far as they say.
+    EulerRotation(Arc<EulerTrack>),
     /// Its translation in the parent's space, in place of the rest translation.
     Translation(Arc<Track<DVec3>>),
 }
 
-/// How a track's orientations are written: as Euler angles.
+/// How the quaternions of a track are written: as Euler angles. These are not curves ([`JointValues::EulerRotation`]
+/// is): a key stands for an orientation, whole turns and all.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EulerNotation {
     /// The order of the axes.
@@ -153,6 +158,88 @@ pub enum SceneError {
     Skeleton(#[from] SkeletonError),
 }
 
+/// The most frames that a scene's range may have at its rate: more than a day at 60 a second, and few
+/// enough that a slip of the pen does not ask for all memory there is.
+pub(super) const MOST_FRAMES: f64 = 1e7;
+
+/// The fastest rate, frames a second.
+pub(super) const FASTEST: f64 = 10_000.0;
+
+/// Why a scene cannot be written: its file would not be read.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SceneWriteError {
+    /// The range is not finite, or ends before it starts.
+    #[error("a scene cannot play from {start_secs:e} s to {end_secs:e} s")]
+    Range {
+        /// Its start.
+        start_secs: f64,
+        /// Its end.
+        end_secs: f64,
+    },
+    /// The rate is not one that a scene may have.
+    #[error(
+        "a scene plays at a rate over 0 and at most {FASTEST} frames a second, not at {frames_per_sec:e}"
+    )]
+    Rate {
+        /// Frames a second.
+        frames_per_sec: f64,
+    },
+    /// The range is too long for its rate.
+    #[error("a scene has at most {MOST_FRAMES:e} frames, not {frames:e}")]
+    TooLong {
+        /// How many it has.
+        frames: f64,
+    },
+    /// A number of something that stands in the scene is not finite.
+    #[error("{of} has a number that is not finite")]
+    NotFinite {
+        /// What has it.
+        of: &'static str,
+    },
+}
+
+/// Whether a scene's file will be read again. Tracks are: what they hold was checked when they were made.
+///
+/// # Errors
+/// [`SceneWriteError`] with the first thing that no reader takes.
+pub fn check(scene: &Scene) -> Result<(), SceneWriteError> {
+    let [start_secs, end_secs] = scene.range_secs;
+    if !(start_secs.is_finite() && end_secs.is_finite() && start_secs <= end_secs) {
+        return Err(SceneWriteError::Range {
+            start_secs,
+            end_secs,
+        });
+    }
+    let frames_per_sec = scene.frames_per_sec;
+    if !(frames_per_sec > 0.0 && frames_per_sec <= FASTEST) {
+        return Err(SceneWriteError::Rate { frames_per_sec });
+    }
+    let frames = (end_secs - start_secs) * frames_per_sec;
+    if frames > MOST_FRAMES {
+        return Err(SceneWriteError::TooLong { frames });
+    }
+    if let SkeletonSource::Inline(joints) = &scene.skeleton {
+        let is_finite =
+            |joint: &InlineJoint| joint.translation.is_finite() && joint.rotation.is_finite();
+        if !joints.iter().all(is_finite) {
+            return Err(SceneWriteError::NotFinite {
+                of: "a joint at rest",
+            });
+        }
+    }
+    let layers = scene.motions.iter().flat_map(|layer| {
+        let clip = layer.clip_secs.unwrap_or_default();
+        [layer.start_secs, clip[0], clip[1]]
+    });
+    if !layers.into_iter().all(f64::is_finite) {
+        return Err(SceneWriteError::NotFinite {
+            of: "a motion's time",
+        });
+    }
+    Ok(())
+}
+
 impl Scene {
     /// A scene in which nothing happens for a second.
     pub fn new(skeleton: SkeletonSource) -> Self {
@@ -197,10 +284,15 @@ impl Scene {
                 .find(joint)
                 .ok_or_else(|| SceneError::NoSuchJoint { joint: name() })?;
             animation = match values {
-                JointValues::Rotation { .. } if skeleton.is_end_site(id) => {
+                JointValues::Rotation { .. } | JointValues::EulerRotation(_)
+                    if skeleton.is_end_site(id) =>
+                {
                     return Err(SceneError::EndSiteTurns { joint: name() });
                 }
                 JointValues::Rotation { track, .. } => {
+                    animation.with_rotation(id, Some(Arc::clone(track)))
+                }
+                JointValues::EulerRotation(track) => {
                     animation.with_rotation(id, Some(Arc::clone(track)))
                 }
                 JointValues::Translation(track) => {
@@ -212,8 +304,8 @@ impl Scene {
     }
 
     /// Takes an animation's tracks in place of its own. Tracks of joints that are still keyed keep
-    /// their place in the file and the notation of their orientations; new ones follow, joint by joint,
-    /// in Euler angles of `notation` or as quaternions.
+    /// their place in the file and the notation of their quaternions; new ones follow, joint by joint,
+    /// quaternions written in Euler angles of `notation` or as such.
     pub fn set_animation(&mut self, animation: &Animation, notation: Option<EulerOrder>) {
         let skeleton = animation.skeleton();
         let mut tracks: Vec<JointTrack> = Vec::new();
@@ -225,11 +317,16 @@ impl Scene {
             let (kind, values) = match old.values {
                 JointValues::Rotation { euler, .. } => {
                     let track = animation.rotation(joint);
-                    let rotation = |track: &Arc<Track<DQuat>>| JointValues::Rotation {
-                        track: Arc::clone(track),
-                        euler,
+                    (0, track.map(|track| rotation(track, euler)))
+                }
+                JointValues::EulerRotation(old) => {
+                    let order = old.order();
+                    let euler = EulerNotation {
+                        order,
+                        angles_deg: Vec::new(),
                     };
-                    (0, track.map(rotation))
+                    let track = animation.rotation(joint);
+                    (0, track.map(|track| rotation(track, Some(euler))))
                 }
                 JointValues::Translation(_) => (1, animation.translation(joint).map(translation)),
             };
@@ -257,14 +354,22 @@ impl Scene {
             if let Some(track) = animation.rotation(joint).filter(|_| new(0)) {
                 tracks.push(JointTrack {
                     joint: name(),
-                    values: JointValues::Rotation {
-                        track: Arc::clone(track),
-                        euler: euler.clone(),
-                    },
+                    values: rotation(track, euler.clone()),
                 });
             }
         }
         self.tracks = tracks;
+    }
+}
+
+/// A rotation's values; quaternions in a notation.
+fn rotation(track: &RotationTrack, euler: Option<EulerNotation>) -> JointValues {
+    match track {
+        RotationTrack::Euler(track) => JointValues::EulerRotation(Arc::clone(track)),
+        RotationTrack::Quaternion(track) => JointValues::Rotation {
+            track: Arc::clone(track),
+            euler,
+        },
     }
 }
 

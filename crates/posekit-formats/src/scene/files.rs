@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use posekit::motion::{Motion, PositionPolicy};
 
-use super::{AUTHORED_WALK, SceneReadError, Shot, is_scene_name, read};
+use super::{AUTHORED_WALK, SceneProblem, SceneReadError, Shot, is_scene_name, read};
 use crate::{bvh, gltf};
 
 /// What the name of a clip of our own starts with in a scene.
@@ -87,18 +87,25 @@ impl SceneReadError {
         let Some(first) = self.problems.first() else {
             return format!("{name}: {self}");
         };
-        let (line, column) = (first.location.line, first.location.column);
-        let place = if first.path.is_empty() {
-            String::new()
-        } else {
-            format!("{}: ", first.path)
-        };
         let more = match self.problems.len() + self.more - 1 {
             0 => String::new(),
             1 => " (and 1 more problem)".to_owned(),
             more => format!(" (and {more} more problems)"),
         };
-        format!("{name}:{line}:{column}: {place}{}{more}", first.message)
+        format!("{}{more}", first.in_file(name))
+    }
+}
+
+impl SceneProblem {
+    /// `NAME:12:5: track[2].joint: the message`, which editors and terminals make a link of.
+    pub fn in_file(&self, name: &str) -> String {
+        let (line, column) = (self.location.line, self.location.column);
+        let place = if self.path.is_empty() {
+            String::new()
+        } else {
+            format!("{}: ", self.path)
+        };
+        format!("{name}:{line}:{column}: {place}{}", self.message)
     }
 }
 

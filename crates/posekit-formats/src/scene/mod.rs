@@ -15,6 +15,9 @@
 //!   control system shows what was changed.
 //! - A file of a newer [`VERSION`] is refused by its number before anything else in it is looked at; files
 //!   of older ones are read.
+//! - Rotation keys that are Euler angles are **Euler curves**, in files of every version, unless the track
+//!   says `mode = "quaternion"`: whoever writes 0 and then 360 means a turn. (In version 1 a slope set by
+//!   hand was one of four numbers, which quaternions alone have: such a track stays one of quaternions.)
 //! - All problems of a file are found at once, each with line, column and path. A name that the format
 //!   does not have is a problem: it is more likely a typing error than a wish.
 //!
@@ -28,10 +31,10 @@ mod write;
 
 pub use document::{
     Camera, EulerNotation, InlineJoint, JointTrack, JointValues, Light, MotionLayer, Prop, Scene,
-    SceneError, SkeletonSource,
+    SceneError, SceneWriteError, SkeletonSource, check,
 };
 pub use files::{AUTHORED_WALK_NAME, MotionFileError, SAMPLE_PREFIX, motion_of};
-pub use read::{SceneProblem, SceneProblemKind, SceneReadError, read};
+pub use read::{SceneProblem, SceneProblemKind, SceneReadError, read, read_with_warnings};
 pub use shot::{Shot, ShotError};
 pub(crate) use write::quoted;
 pub use write::write;
@@ -40,7 +43,9 @@ pub use write::write;
 pub const FORMAT: &str = "posekit scene";
 
 /// The version of the format that is written, and the newest that is read.
-pub const VERSION: u32 = 1;
+///
+/// 2 has Euler curves, `mode`, and handles that are free in time.
+pub const VERSION: u32 = 2;
 
 /// How a scene's file name ends.
 pub const EXTENSION: &str = "posekit.toml";

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use glam::{DQuat, DVec3};
 use posekit::keyframe::{
-    Extrapolation, Interpolation, KeyValue, Keyframe, Property, Tangents, Track,
+    Extrapolation, Handle, HandlePair, Interpolation, KeyValue, Keyframe, Property, Tangents, Track,
 };
 
 use super::document::{EulerNotation, JointValues, Scene, SkeletonSource};
@@ -95,11 +95,18 @@ trait Writable {
 /// The numbers that a value or a slope is made of.
 trait Components: KeyValue {
     fn components(self, text: &mut Text) -> String;
+
+    /// A handle as pairs of seconds and value, seen from its key; `sign` is -1 for the one before the key.
+    fn handle(handle: Handle<Self>, sign: f64, text: &mut Text) -> String;
 }
 
 impl Components for f64 {
     fn components(self, text: &mut Text) -> String {
         text.number(self)
+    }
+
+    fn handle(handle: Handle<Self>, sign: f64, text: &mut Text) -> String {
+        text.numbers(&[handle.secs * sign, handle.value])
     }
 }
 
@@ -107,11 +114,24 @@ impl Components for DVec3 {
     fn components(self, text: &mut Text) -> String {
         text.numbers(&self.to_array())
     }
+
+    fn handle(handle: Handle<Self>, sign: f64, text: &mut Text) -> String {
+        let pairs = [0, 1, 2].map(|axis| {
+            let pair = [handle.secs[axis] * sign, handle.value[axis]];
+            text.numbers(&pair)
+        });
+        format!("[{}]", pairs.join(", "))
+    }
 }
 
 impl Components for DQuat {
     fn components(self, text: &mut Text) -> String {
         text.numbers(&self.to_array())
+    }
+
+    /// A track of quaternions has no such handles.
+    fn handle(handle: Handle<Self>, _sign: f64, text: &mut Text) -> String {
+        handle.value.components(text)
     }
 }
 
@@ -212,11 +232,17 @@ impl Text {
             } => {
                 self.field("property", "\"rotation\"");
                 self.field("euler_deg", &format!("\"{}\"", notation.order));
+                self.field("mode", "\"quaternion\"");
                 let mut angles = angles_of_keys(track, notation).into_iter();
                 let axes = notation.order.axes().len();
                 self.track(track, |_, text| {
                     text.numbers(&angles.next().unwrap_or_default()[..axes])
                 });
+            }
+            JointValues::EulerRotation(track) => {
+                self.field("property", "\"rotation\"");
+                self.field("euler_deg", &format!("\"{}\"", track.order()));
+                self.track(track.angles_deg(), |key, text| key.value.components(text));
             }
         }
     }
@@ -263,6 +289,18 @@ impl Text {
                 Tangents::Broken { incoming, outgoing } => {
                     line += &format!(", slope_in = {}", incoming.components(self));
                     line += &format!(", slope_out = {}", outgoing.components(self));
+                }
+                Tangents::Handles {
+                    incoming,
+                    outgoing,
+                    pair,
+                } => {
+                    let before = V::handle(incoming, -1.0, self);
+                    let after = V::handle(outgoing, 1.0, self);
+                    line += &format!(", handle_in = {before}, handle_out = {after}");
+                    if pair == HandlePair::Broken {
+                        line += ", handles = \"broken\"";
+                    }
                 }
                 _ => {}
             }

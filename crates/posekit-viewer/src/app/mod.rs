@@ -37,7 +37,7 @@ use crate::state::arm::ArmLab;
 use crate::state::clip::Clip;
 use crate::state::interpolation::InterpolationLab;
 use crate::state::library::Library;
-use crate::state::notices::Notices;
+use crate::state::notices::{NoticeKind, Notices};
 use crate::state::session::{ClipId, Session};
 use crate::state::settings::{Settings, WindowLayout};
 use crate::theme;
@@ -417,6 +417,11 @@ impl Viewer {
         reason = "seconds until a notice goes; a fraction of them is enough"
     )]
     fn plan_repaint(&mut self, ctx: &egui::Context) {
+        let now = ctx.input(|i| i.time);
+        for text in self.session.take_told() {
+            self.notices.add(NoticeKind::Done, text, now);
+            ctx.request_repaint();
+        }
         let plays = self.session.transport.is_playing() || self.plays_in_interpolation();
         if plays && !self.painter.is_busy() {
             ctx.request_repaint();

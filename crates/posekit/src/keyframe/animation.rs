@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 
+use super::euler::RotationTrack;
 use super::track::Track;
 use super::value::KeyValue;
 use crate::motion::Motion;
@@ -18,7 +19,7 @@ use crate::skeleton::{JointId, Skeleton};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Animation {
     skeleton: Arc<Skeleton>,
-    rotations: Vec<Option<Arc<Track<DQuat>>>>,
+    rotations: Vec<Option<RotationTrack>>,
     translations: Vec<Option<Arc<Track<DVec3>>>>,
 }
 
@@ -86,11 +87,11 @@ impl Animation {
         &self.skeleton
     }
 
-    /// The track of a joint's rotation.
+    /// The track of a joint's rotation: quaternions, or Euler curves.
     ///
     /// # Panics
     /// If the joint is out of range.
-    pub fn rotation(&self, joint: JointId) -> Option<&Arc<Track<DQuat>>> {
+    pub fn rotation(&self, joint: JointId) -> Option<&RotationTrack> {
         self.rotations[joint.index()].as_ref()
     }
 
@@ -111,7 +112,7 @@ impl Animation {
     pub fn with_rotation(
         mut self,
         joint: JointId,
-        track: Option<impl Into<Arc<Track<DQuat>>>>,
+        track: Option<impl Into<RotationTrack>>,
     ) -> Self {
         let track = track.filter(|_| !self.skeleton.is_end_site(joint));
         self.rotations[joint.index()] = track.map(Into::into);
@@ -133,7 +134,7 @@ impl Animation {
     }
 
     /// The joints whose rotation has a track, with it, in topological order.
-    pub fn rotations(&self) -> impl Iterator<Item = (JointId, &Arc<Track<DQuat>>)> {
+    pub fn rotations(&self) -> impl Iterator<Item = (JointId, &RotationTrack)> {
         present(&self.rotations)
     }
 
@@ -144,7 +145,7 @@ impl Animation {
 
     /// How many keys there are.
     pub fn key_count(&self) -> usize {
-        let turning: usize = self.rotations().map(|(_, track)| track.keys().len()).sum();
+        let turning: usize = self.rotations().map(|(_, track)| track.key_count()).sum();
         let moving: usize = self
             .translations()
             .map(|(_, track)| track.keys().len())
@@ -175,7 +176,7 @@ impl Animation {
 
     /// The times of the first and the last key of all tracks, in seconds; `None` without tracks.
     pub fn range_secs(&self) -> Option<[f64; 2]> {
-        let turning = self.rotations().map(|(_, track)| range(track));
+        let turning = self.rotations().map(|(_, track)| track.range_secs());
         let moving = self.translations().map(|(_, track)| range(track));
         turning
             .chain(moving)
@@ -231,9 +232,7 @@ impl Animation {
     }
 }
 
-fn present<V: KeyValue>(
-    tracks: &[Option<Arc<Track<V>>>],
-) -> impl Iterator<Item = (JointId, &Arc<Track<V>>)> {
+fn present<T>(tracks: &[Option<T>]) -> impl Iterator<Item = (JointId, &T)> {
     let numbered = tracks.iter().enumerate();
     numbered.filter_map(|(index, track)| Some((JointId::new(index), track.as_ref()?)))
 }

@@ -45,6 +45,40 @@ pub enum Tangents<V> {
         /// On the segment that starts at the key.
         outgoing: V,
     },
+    /// Handles that are free in time as well as in value, of numbers and vectors: the weighted tangents
+    /// of Maya, the handles of an F-curve in Blender. The segment is the Bezier curve through both keys
+    /// and the two handles between them, solved for time. A side without such handles has its own a third
+    /// of the way along.
+    Handles {
+        /// On the segment that ends at the key.
+        incoming: Handle<V>,
+        /// On the segment that starts at the key.
+        outgoing: Handle<V>,
+        /// Whether an editor turns one with the other. The curve takes both as they are.
+        pair: HandlePair,
+    },
+}
+
+/// A handle of a Bezier curve, seen from its key; of a vector each component has one of its own.
+///
+/// One that reaches past the neighbouring key is shortened along its direction until it ends there, as
+/// Blender does: the curve then never runs back in time.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Handle<V> {
+    /// How far before or after the key it ends, in seconds: never negative.
+    pub secs: V,
+    /// How far above the key's value it ends; negative below.
+    pub value: V,
+}
+
+/// Whether the two handles of a key belong together.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum HandlePair {
+    /// They lie on one line through the key: the curve is smooth.
+    #[default]
+    Aligned,
+    /// Each goes its own way.
+    Broken,
 }
 
 /// A time, a value, and how the value goes on to the next key.

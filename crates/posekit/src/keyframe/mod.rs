@@ -11,7 +11,13 @@
 //! **Method.** Between keys: steps, straight lines and slerp (Shoemake 1985), cubic Hermite segments
 //! with the tangents that graph editors have and the definition that glTF 2.0 gives for orientations,
 //! and squad (Shoemake 1987). A Bezier segment whose handles lie a third of the way along in time is the
-//! same curve as the Hermite one.
+//! same curve as the Hermite one; handles of numbers and vectors may lie elsewhere in time, too
+//! ([`Tangents::Handles`]).
+//!
+//! **Rotations** of joints have two modes ([`RotationTrack`]), as in every animation package. *Quaternions* go
+//! the short way from key to key: no gimbal lock, and no turn over 180 degrees. *Euler curves*
+//! ([`EulerTrack`]) are three curves of angles, in one of twelve orders, that turn as far and as often as they
+//! say. [`to_euler`] and [`to_quaternion`] change one into the other within a stated bound.
 //!
 //! **Guarantees.** A track is valid once it is made: sampling never fails, and gives unit quaternions.
 //! Cubic and squad segments join with continuous velocity where tangents are not broken, however the
@@ -19,7 +25,9 @@
 //! track, so that neither a quaternion's sign nor its neighbour's matters.
 
 mod animation;
+mod convert;
 pub mod edit;
+mod euler;
 mod extrapolation;
 mod key;
 mod property;
@@ -29,8 +37,10 @@ mod track;
 mod value;
 
 pub use animation::{Animation, BakeConfig};
+pub use convert::{ConvertConfig, Converted, LostTurn, lost_turn, to_euler, to_quaternion};
+pub use euler::{EulerTrack, EulerTrackError, RotationTrack};
 pub use extrapolation::{Extrapolation, Place};
-pub use key::{Interpolation, Keyframe, Tangents};
+pub use key::{Handle, HandlePair, Interpolation, Keyframe, Tangents};
 pub use property::{KeyedCamera, KeyedLight, KeyedTransform, Property};
 pub use reduce::{
     KeyError, LEAST_ANGLE_DEG, LEAST_DISTANCE_HEIGHTS, ReduceConfig, ReduceError, Reduction, reduce,

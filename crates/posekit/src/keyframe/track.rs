@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 
 use super::extrapolation::{Extrapolation, Place};
-use super::key::{Interpolation, Keyframe, Tangents};
+use super::key::{Handle, HandlePair, Interpolation, Keyframe, Tangents};
 use super::value::{KeyValue, Meeting, ValueFault};
 
 /// Why keys do not make a track. Indices count the keys from 0.
@@ -51,6 +51,18 @@ pub enum TrackError {
         /// Index of the key.
         index: usize,
     },
+    /// A handle reaches to the wrong side of its key.
+    #[error("a handle of key {index} reaches less than 0 s from it")]
+    HandleBackwards {
+        /// Index of the key.
+        index: usize,
+    },
+    /// The four components of a quaternion have no handles of their own; Euler curves have.
+    #[error("key {index} has handles in time, which quaternions cannot have: use Euler curves")]
+    HandlesOfQuaternion {
+        /// Index of the key.
+        index: usize,
+    },
 }
 
 /// A key as the curve uses it.
@@ -72,6 +84,8 @@ pub(super) struct Segment<V> {
     pub(super) from: Knot<V>,
     pub(super) to: Knot<V>,
     pub(super) secs: f64,
+    /// How far the handles of a cubic reach in time, as shares of the way, where not a third each.
+    pub(super) reaches: Option<[V; 2]>,
 }
 
 impl<V: KeyValue> Segment<V> {
@@ -81,7 +95,13 @@ impl<V: KeyValue> Segment<V> {
         match self.interpolation {
             Interpolation::Step => from.value,
             Interpolation::Linear => V::straight(from.value, to.value, t),
-            Interpolation::Cubic => V::hermite(from.value, from.outgoing, to.value, to.incoming, t),
+            Interpolation::Cubic => match self.reaches {
+                None => V::hermite(from.value, from.outgoing, to.value, to.incoming, t),
+                Some(reaches) => {
+                    let slopes = [from.outgoing, to.incoming];
+                    V::bezier([from.value, to.value], slopes, reaches, t)
+                }
+            },
             Interpolation::Squad => V::squad(from.value, from.outgoing, to.value, to.incoming, t),
         }
     }
@@ -214,7 +234,7 @@ impl<V: KeyValue> Track<V> {
 
     /// The derivative at a key, per second, on the segment that ends there and on the one that starts
     /// there: what a graph editor draws handles from. Of an orientation it is that of the quaternion
-    /// `key.value`, whose sign it fits.
+    /// `key.value`, whose sign it fits. A handle straight up counts as a microsecond long.
     ///
     /// # Panics
     /// If there is no such key.
@@ -255,7 +275,104 @@ impl<V: KeyValue> Track<V> {
             from: self.knots[start],
             to: self.knots[start + 1],
             secs: self.times[start + 1] - self.times[start],
+            reaches: self.reaches(start),
         }
+    }
+
+    /// How far the handles of a segment reach in time, as shares of it; `None` for a third each.
+    fn reaches(&self, start: usize) -> Option<[V; 2]> {
+        let [from, to] = [&self.keys[start], &self.keys[start + 1]];
+        let own = [
+            handle_of(&from.tangents, Side::Outgoing),
+            handle_of(&to.tangents, Side::Incoming),
+        ];
+        if from.interpolation != Interpolation::Cubic || own == [None; 2] {
+            return None;
+        }
+        let secs = self.times[start + 1] - self.times[start];
+        Some(
+            own.map(|handle| {
+                handle.map_or_else(V::third, |it| V::within(it.secs, it.value, secs).0)
+            }),
+        )
+    }
+
+    /// Whether a cubic segment has handles that are free in time.
+    pub(super) fn has_handles(&self) -> bool {
+        (0..self.keys.len() - 1).any(|start| self.reaches(start).is_some())
+    }
+
+    /// A key on the curve at a time inside a segment whose handles are free in time, and what it makes of the
+    /// keys at both ends, the first of which has the given index: the curve stays where it is. `None` on other
+    /// segments.
+    pub(super) fn cut_at(&self, time_secs: f64) -> Option<(usize, [Keyframe<V>; 3])> {
+        let start = self.key_before(time_secs)?;
+        self.key_after(time_secs)?;
+        let segment = self.segment(start);
+        let reaches = segment.reaches?;
+        let Segment { from, to, secs, .. } = segment;
+        let share = (time_secs - self.times[start]) / secs;
+        let slopes = [from.outgoing, to.incoming];
+        let (value, handles) = V::cut_bezier([from.value, to.value], slopes, reaches, share);
+        let [first, before, after, last] = handles.map(|(share, value)| Handle {
+            secs: share.scaled(secs),
+            value,
+        });
+        let [mut one, mut two] = [self.keys[start], self.keys[start + 1]];
+        let none = Handle {
+            secs: V::third().scaled(0.0),
+            value: V::third().scaled(0.0),
+        };
+        one.tangents = Tangents::Handles {
+            incoming: self.handles_at(start)[0].unwrap_or(none),
+            outgoing: first,
+            pair: pair_of(&one.tangents),
+        };
+        two.tangents = Tangents::Handles {
+            incoming: last,
+            outgoing: self.handles_at(start + 1)[1].unwrap_or(none),
+            pair: pair_of(&two.tangents),
+        };
+        let middle = Keyframe {
+            time_secs,
+            value,
+            interpolation: Interpolation::Cubic,
+            tangents: Tangents::Handles {
+                incoming: before,
+                outgoing: after,
+                pair: HandlePair::Aligned,
+            },
+        };
+        Some((start, [one, middle, two]))
+    }
+
+    /// The handle on one side of a key as the curve uses it: where it lies, seen from the key, seconds
+    /// away from it and value. `None` where that side is not a cubic segment, or the values are
+    /// orientations.
+    ///
+    /// # Panics
+    /// If there is no such key.
+    pub fn handles_at(&self, index: usize) -> [Option<Handle<V>>; 2] {
+        [Side::Incoming, Side::Outgoing].map(|side| {
+            let start = match side {
+                Side::Incoming => index.checked_sub(1)?,
+                Side::Outgoing => index,
+            };
+            let end = self.times.get(start + 1)?;
+            let secs = end - self.times[start];
+            if !V::HAS_HANDLES || self.keys[start].interpolation != Interpolation::Cubic {
+                return None;
+            }
+            let shares = self.reaches(start).unwrap_or_else(|| [V::third(); 2]);
+            let (share, change) = match side {
+                Side::Incoming => (shares[1], self.knots[index].incoming.scaled(-1.0)),
+                Side::Outgoing => (shares[0], self.knots[index].outgoing),
+            };
+            Some(Handle {
+                secs: share.scaled(secs),
+                value: change.scaled(1.0 / 3.0),
+            })
+        })
     }
 
     /// The values of the first and the last key, as the curve uses them.
@@ -271,8 +388,8 @@ impl<V: KeyValue> Track<V> {
                 (self.knots[start].value, self.knots[start + 1].value)
             }
             Interpolation::Cubic => (
-                self.side_tangent(start, Side::Outgoing).scaled(secs),
-                self.side_tangent(start + 1, Side::Incoming).scaled(secs),
+                self.change(start, Side::Outgoing, secs),
+                self.change(start + 1, Side::Incoming, secs),
             ),
             Interpolation::Squad => {
                 let velocities = [start, start + 1].map(|index| {
@@ -283,6 +400,21 @@ impl<V: KeyValue> Track<V> {
                 let [outgoing, incoming] = V::squad_controls(from, to, velocities, secs);
                 (outgoing, incoming)
             }
+        }
+    }
+
+    /// What the tangent on one side of a key would change over a cubic segment: three times as much as its
+    /// handle does.
+    fn change(&self, index: usize, side: Side, secs: f64) -> V {
+        match handle_of(&self.keys[index].tangents, side) {
+            Some(handle) => {
+                let (_, value) = V::within(handle.secs, handle.value, secs);
+                value.scaled(match side {
+                    Side::Incoming => -3.0,
+                    Side::Outgoing => 3.0,
+                })
+            }
+            None => self.side_tangent(index, side).scaled(secs),
         }
     }
 
@@ -297,6 +429,19 @@ impl<V: KeyValue> Track<V> {
                     Side::Outgoing => outgoing,
                 };
                 return tangent.scaled(self.sign(index));
+            }
+            (
+                Tangents::Handles {
+                    incoming, outgoing, ..
+                },
+                _,
+            ) => {
+                return match side {
+                    Side::Incoming => {
+                        V::slope_of_handle(incoming.secs, incoming.value).scaled(-1.0)
+                    }
+                    Side::Outgoing => V::slope_of_handle(outgoing.secs, outgoing.value),
+                };
             }
             (Tangents::Auto, Ok(meeting)) => V::clamped_velocity(meeting),
             (Tangents::Smooth, Ok(meeting)) => V::smooth_velocity(meeting),
@@ -380,6 +525,24 @@ enum Side {
     Outgoing,
 }
 
+/// Whether both sides of a key go on in one line.
+fn pair_of<V>(tangents: &Tangents<V>) -> HandlePair {
+    match tangents {
+        Tangents::Handles { pair, .. } => *pair,
+        Tangents::Broken { .. } => HandlePair::Broken,
+        _ => HandlePair::Aligned,
+    }
+}
+
+/// The handle on a side of a key, where it has one that is free in time.
+fn handle_of<V: KeyValue>(tangents: &Tangents<V>, side: Side) -> Option<Handle<V>> {
+    match (tangents, side) {
+        (Tangents::Handles { incoming, .. }, Side::Incoming) => Some(*incoming),
+        (Tangents::Handles { outgoing, .. }, Side::Outgoing) => Some(*outgoing),
+        _ => None,
+    }
+}
+
 fn check<V: KeyValue>(keys: &[Keyframe<V>]) -> Result<(), TrackError> {
     if keys.is_empty() {
         return Err(TrackError::Empty);
@@ -406,6 +569,19 @@ fn check<V: KeyValue>(keys: &[Keyframe<V>]) -> Result<(), TrackError> {
         let tangents_are_finite = match key.tangents {
             Tangents::Aligned(tangent) => tangent.is_finite(),
             Tangents::Broken { incoming, outgoing } => incoming.is_finite() && outgoing.is_finite(),
+            Tangents::Handles {
+                incoming, outgoing, ..
+            } => {
+                if !V::HAS_HANDLES {
+                    return Err(TrackError::HandlesOfQuaternion { index });
+                }
+                let both = [incoming, outgoing];
+                let finite = both.map(|it| it.secs.is_finite() && it.value.is_finite());
+                if finite == [true; 2] && !both.iter().all(|it| it.secs.is_no_less_than_zero()) {
+                    return Err(TrackError::HandleBackwards { index });
+                }
+                finite == [true; 2]
+            }
             Tangents::Auto | Tangents::Smooth | Tangents::Flat => true,
         };
         if !tangents_are_finite {

@@ -32,6 +32,9 @@ impl KeyValue for f64 {}
 impl KeyValue for DVec3 {}
 impl KeyValue for DQuat {}
 
+/// How long a handle counts as at least when its slope is asked for, in seconds: straight up it has none.
+pub(crate) const LEAST_HANDLE_SECS: f64 = 1e-6;
+
 /// What is wrong with a value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ValueFault {
@@ -74,6 +77,9 @@ pub trait Value: Copy + PartialEq + std::fmt::Debug + Send + Sync + 'static {
     /// Times a number.
     fn scaled(self, factor: f64) -> Self;
 
+    /// Component by component.
+    fn sum(self, other: Self) -> Self;
+
     /// The constant velocity of the straight way.
     fn velocity(from: Self, to: Self, secs: f64) -> Self::Velocity;
 
@@ -92,6 +98,35 @@ pub trait Value: Copy + PartialEq + std::fmt::Debug + Send + Sync + 'static {
 
     /// The cubic with the given derivatives over the whole way (per unit of `t`).
     fn hermite(from: Self, from_slope: Self, to: Self, to_slope: Self, t: f64) -> Self;
+
+    /// Whether its segments may be Bezier curves in time and value, component by component.
+    const HAS_HANDLES: bool;
+
+    /// Whether no component is below zero.
+    fn is_no_less_than_zero(self) -> bool;
+
+    /// A handle shortened along its direction to at most `most_secs`: its time as a share of that, and its
+    /// value.
+    fn within(secs: Self, value: Self, most_secs: f64) -> (Self, Self);
+
+    /// The slope of a handle.
+    fn slope_of_handle(secs: Self, value: Self) -> Self;
+
+    /// The Bezier curve whose handles lie `reaches` of the way in time from either end, at a share of that
+    /// time. The slopes are three times the handles' values.
+    fn bezier(ends: [Self; 2], slopes: [Self; 2], reaches: [Self; 2], t: f64) -> Self;
+
+    /// A reach of a third, in every component.
+    fn third() -> Self;
+
+    /// A Bezier curve cut in two at a share of its time: its value there, and the four handles of both parts in
+    /// the order of time, as shares of the whole time and values seen from their keys.
+    fn cut_bezier(
+        ends: [Self; 2],
+        slopes: [Self; 2],
+        reaches: [Self; 2],
+        t: f64,
+    ) -> (Self, [(Self, Self); 4]);
 
     /// [`smooth_velocity`](Self::smooth_velocity), kept within what a squad can do.
     fn squad_velocity(meeting: Meeting<Self::Velocity>) -> Self::Velocity {
@@ -120,6 +155,47 @@ pub(crate) fn hermite_weights(t: f64) -> [f64; 4] {
         t * t * (1.0 + 2.0 * s),
         -t * t * s,
     ]
+}
+
+/// Where along a Bezier curve a time is: the parameter at which the cubic with the times 0, `from`,
+/// 1 - `to` and 1 has the value `time`, all in [0, 1]; then it rises throughout, and there is one.
+///
+/// Newton's steps, halving where one leaves the bracket: to the last digits.
+pub(crate) fn bezier_parameter(from: f64, to: f64, time: f64) -> f64 {
+    /// Halving alone reaches the last digit of an `f64` in as many steps.
+    const MOST_STEPS: usize = 64;
+    // Handles a third of the way along: time is the parameter.
+    let third = 1.0 / 3.0;
+    if !(0.0..1.0).contains(&time) || (from == third && to == third) {
+        return time.clamp(0.0, 1.0);
+    }
+    let end = 1.0 - to;
+    let [mut low, mut high] = [0.0, 1.0];
+    let mut at = time;
+    for _ in 0..MOST_STEPS {
+        let s = 1.0 - at;
+        let off = 3.0 * at * s * (s * from + at * end) + at * at * at - time;
+        if off == 0.0 {
+            return at;
+        }
+        if off > 0.0 {
+            high = at;
+        } else {
+            low = at;
+        }
+        let slope = 3.0 * (s * s * from + 2.0 * s * at * (end - from) + at * at * (1.0 - end));
+        let newton = at - off / slope;
+        let next = if newton > low && newton < high {
+            newton
+        } else {
+            low + (high - low) * 0.5
+        };
+        if next == at {
+            return at;
+        }
+        at = next;
+    }
+    at
 }
 
 /// What numbers and vectors have in common: sums and multiples.
@@ -153,6 +229,8 @@ macro_rules! linear_ways {
         fn slope_shifted(self, _first: Self, _last: Self) -> Self {
             self
         }
+
+        const HAS_HANDLES: bool = true;
     };
 }
 
@@ -179,6 +257,10 @@ impl Value for f64 {
         self * factor
     }
 
+    fn sum(self, other: Self) -> Self {
+        self + other
+    }
+
     fn velocity(from: Self, to: Self, secs: f64) -> Self {
         (to - from) / secs
     }
@@ -200,6 +282,59 @@ impl Value for f64 {
         }
         let steepest = STEEPEST * before.abs().min(after.abs());
         Self::smooth_velocity(meeting).clamp(-steepest, steepest)
+    }
+
+    fn is_no_less_than_zero(self) -> bool {
+        self >= 0.0
+    }
+
+    fn within(secs: Self, value: Self, most_secs: f64) -> (Self, Self) {
+        if secs > most_secs {
+            (1.0, value * (most_secs / secs))
+        } else {
+            (secs / most_secs, value)
+        }
+    }
+
+    fn slope_of_handle(secs: Self, value: Self) -> Self {
+        value / secs.max(LEAST_HANDLE_SECS)
+    }
+
+    fn bezier(ends: [Self; 2], slopes: [Self; 2], reaches: [Self; 2], t: f64) -> Self {
+        let along = bezier_parameter(reaches[0], reaches[1], t);
+        Self::hermite(ends[0], slopes[0], ends[1], slopes[1], along)
+    }
+
+    fn third() -> Self {
+        1.0 / 3.0
+    }
+
+    /// De Casteljau's construction, in time and in value.
+    fn cut_bezier(
+        ends: [Self; 2],
+        slopes: [Self; 2],
+        reaches: [Self; 2],
+        t: f64,
+    ) -> (Self, [(Self, Self); 4]) {
+        let along = bezier_parameter(reaches[0], reaches[1], t);
+        let mixed = |a: Self, b: Self| a + (b - a) * along;
+        let cut = |points: [Self; 4]| {
+            let [a, b, c] = [0, 1, 2].map(|i| mixed(points[i], points[i + 1]));
+            let [d, e] = [mixed(a, b), mixed(b, c)];
+            ([a, d, e, c], mixed(d, e))
+        };
+        let third = 1.0 / 3.0;
+        let heights = [
+            ends[0],
+            ends[0] + slopes[0] * third,
+            ends[1] - slopes[1] * third,
+            ends[1],
+        ];
+        let (times, at) = cut([0.0, reaches[0], 1.0 - reaches[1], 1.0]);
+        let (values, value) = cut(heights);
+        let keys = [(0.0, ends[0]), (at, value), (at, value), (1.0, ends[1])];
+        let handle = |i: usize| ((times[i] - keys[i].0).abs(), values[i] - keys[i].1);
+        (value, [0, 1, 2, 3].map(handle))
     }
 
     linear_ways!();
@@ -228,6 +363,10 @@ impl Value for DVec3 {
         self * factor
     }
 
+    fn sum(self, other: Self) -> Self {
+        self + other
+    }
+
     fn velocity(from: Self, to: Self, secs: f64) -> Self {
         (to - from) / secs
     }
@@ -238,6 +377,51 @@ impl Value for DVec3 {
 
     fn clamped_velocity(meeting: Meeting<Self>) -> Self {
         per_component(meeting, f64::clamped_velocity)
+    }
+
+    fn is_no_less_than_zero(self) -> bool {
+        self.cmpge(Self::ZERO).all()
+    }
+
+    fn within(secs: Self, value: Self, most_secs: f64) -> (Self, Self) {
+        let axes = [0, 1, 2].map(|axis| f64::within(secs[axis], value[axis], most_secs));
+        (
+            Self::from_array(axes.map(|(share, _)| share)),
+            Self::from_array(axes.map(|(_, value)| value)),
+        )
+    }
+
+    fn slope_of_handle(secs: Self, value: Self) -> Self {
+        let axis = |axis: usize| f64::slope_of_handle(secs[axis], value[axis]);
+        Self::from_array([0, 1, 2].map(axis))
+    }
+
+    fn bezier(ends: [Self; 2], slopes: [Self; 2], reaches: [Self; 2], t: f64) -> Self {
+        let of = |pair: [Self; 2], axis: usize| pair.map(|vector| vector[axis]);
+        let axis = |axis| f64::bezier(of(ends, axis), of(slopes, axis), of(reaches, axis), t);
+        Self::from_array([0, 1, 2].map(axis))
+    }
+
+    fn third() -> Self {
+        Self::splat(1.0 / 3.0)
+    }
+
+    fn cut_bezier(
+        ends: [Self; 2],
+        slopes: [Self; 2],
+        reaches: [Self; 2],
+        t: f64,
+    ) -> (Self, [(Self, Self); 4]) {
+        let of = |pair: [Self; 2], axis: usize| pair.map(|vector| vector[axis]);
+        let cuts = [0, 1, 2]
+            .map(|axis| f64::cut_bezier(of(ends, axis), of(slopes, axis), of(reaches, axis), t));
+        let handle = |i: usize| {
+            let secs = Self::from_array(cuts.map(|(_, handles)| handles[i].0));
+            let value = Self::from_array(cuts.map(|(_, handles)| handles[i].1));
+            (secs, value)
+        };
+        let value = Self::from_array(cuts.map(|(value, _)| value));
+        (value, [0, 1, 2, 3].map(handle))
     }
 
     linear_ways!();
@@ -292,6 +476,10 @@ impl Value for DQuat {
 
     fn scaled(self, factor: f64) -> Self {
         self * factor
+    }
+
+    fn sum(self, other: Self) -> Self {
+        self + other
     }
 
     fn velocity(from: Self, to: Self, secs: f64) -> DVec3 {
@@ -361,5 +549,38 @@ impl Value for DQuat {
 
     fn slope_shifted(self, first: Self, last: Self) -> Self {
         self.shifted(first, last, 1.0)
+    }
+
+    // The four components are one value: they have no times of their own. A track refuses such handles.
+    const HAS_HANDLES: bool = false;
+
+    fn is_no_less_than_zero(self) -> bool {
+        false
+    }
+
+    fn within(_secs: Self, value: Self, _most_secs: f64) -> (Self, Self) {
+        (Self::third(), value)
+    }
+
+    fn slope_of_handle(_secs: Self, value: Self) -> Self {
+        value
+    }
+
+    fn bezier(ends: [Self; 2], slopes: [Self; 2], _reaches: [Self; 2], t: f64) -> Self {
+        Self::hermite(ends[0], slopes[0], ends[1], slopes[1], t)
+    }
+
+    fn third() -> Self {
+        Self::IDENTITY
+    }
+
+    fn cut_bezier(
+        ends: [Self; 2],
+        slopes: [Self; 2],
+        _reaches: [Self; 2],
+        t: f64,
+    ) -> (Self, [(Self, Self); 4]) {
+        let value = Self::hermite(ends[0], slopes[0], ends[1], slopes[1], t);
+        (value, [(Self::third(), value); 4])
     }
 }

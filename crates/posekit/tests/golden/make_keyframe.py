@@ -191,6 +191,74 @@ def catmull_rom_cases():
     return cases
 
 
+def bezier(times, values, handles, at):
+    """An F-curve as Blender evaluates it: between two keys the Bezier curve through the key, its right handle,
+    the next key's left handle and that key, handles shortened along their direction where they reach past the
+    other key; the cubic of time is solved (here by numpy.roots, the companion matrix's eigenvalues), and the
+    value taken there. `handles[k]` is [left time, left value, right time, right value] seen from the key."""
+    result = []
+    for now in at:
+        k = int(np.clip(np.searchsorted(times, now, side="right") - 1, 0, len(times) - 2))
+        span = times[k + 1] - times[k]
+
+        def shortened(time, value):
+            factor = min(1.0, span / abs(time)) if time else 1.0
+            return time * factor, value * factor
+
+        right = shortened(handles[k][2], handles[k][3])
+        left = shortened(handles[k + 1][0], handles[k + 1][1])
+        x = [times[k], times[k] + right[0], times[k + 1] + left[0], times[k + 1]]
+        y = [values[k], values[k] + right[1], values[k + 1] + left[1], values[k + 1]]
+        cubic = [
+            -x[0] + 3 * x[1] - 3 * x[2] + x[3],
+            3 * x[0] - 6 * x[1] + 3 * x[2],
+            3 * x[1] - 3 * x[0],
+            x[0] - now,
+        ]
+        roots = np.roots(cubic)
+        real = roots[np.abs(roots.imag) < 1e-6].real
+        t = float(np.clip(real[np.argmin(np.maximum(-real, real - 1))], 0, 1))
+        s = 1 - t
+        result.append(s**3 * y[0] + 3 * s * s * t * y[1] + 3 * s * t * t * y[2] + t**3 * y[3])
+    return np.array(result)
+
+
+def random_handles(times, values):
+    """For each key [left time, left value, right time, right value]; some reach past the next key."""
+    count = len(times)
+    reach = RNG.uniform(0.05, 1.6, size=(count, 2))
+    rise = RNG.normal(size=(count, 2)) * 40
+    return np.stack([-reach[:, 0], rise[:, 0], reach[:, 1], rise[:, 1]], axis=1)
+
+
+def euler_cases():
+    """Three F-curves of angles in degrees in each of the twelve orders, and SciPy's rotation of the angles that
+    they have at a time. SciPy's capital letters are intrinsic turns, multiplied left to right."""
+    cases = []
+    for order in ("XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX", "XYX", "XZX", "YXY", "YZY", "ZXZ", "ZYZ"):
+        times = random_times(4)
+        values = RNG.uniform(-400, 400, size=(4, 3))
+        handles = np.stack([random_handles(times, values[:, i]) for i in range(3)], axis=1)
+        at = inside(times)
+        angles = np.stack(
+            [bezier(times, values[:, i], handles[:, i], at) for i in range(3)], axis=1
+        )
+        straight = np.stack([np.interp(at, times, values[:, i]) for i in range(3)], axis=1)
+        cases.append(
+            {
+                "order": order,
+                "times": numbers(times),
+                "values": numbers(values),
+                "handles": numbers(handles),
+                "at": numbers(at),
+                "angles": numbers(angles),
+                "expected": numbers(Rotation.from_euler(order, angles, degrees=True).as_quat()),
+                "linear": numbers(Rotation.from_euler(order, straight, degrees=True).as_quat()),
+            }
+        )
+    return cases
+
+
 def main():
     golden = {
         "slerp": slerp_cases(),
@@ -198,6 +266,7 @@ def main():
         "cubic_spline": cubic_spline_cases(),
         "squad": squad_cases(),
         "catmull_rom": catmull_rom_cases(),
+        "euler": euler_cases(),
     }
     lines = []
     for name, cases in golden.items():

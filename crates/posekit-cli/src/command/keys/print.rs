@@ -114,6 +114,13 @@ fn rows(scene: &Scene) -> Vec<Row> {
                     q.to_array().to_vec()
                 })
             }
+            JointValues::EulerRotation(curves) => {
+                // The values are angles in this order: columns of a CSV hold either.
+                let property = format!("rotation {} deg", curves.order());
+                row(&track.joint, &property, curves.angles_deg(), |v: DVec3| {
+                    v.to_array().to_vec()
+                })
+            }
             JointValues::Translation(keys) => row(&track.joint, "translation", keys, |v: DVec3| {
                 v.to_array().to_vec()
             }),

@@ -21,7 +21,8 @@ use crate::text::{counted, grouped, trimmed};
 /// Find few keys that stand for a motion within a stated error
 ///
 /// Every joint's rotation stays within --angle of the motion's at every frame, and every joint's place in
-/// the world within --distance; both are measured on the result. Keys are cubic with set slopes.
+/// the world within --distance; both are measured on the result. Keys are cubic with set slopes, and
+/// rotations are quaternions.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct ReduceArgs {
@@ -40,7 +41,7 @@ pub(super) struct ReduceArgs {
     /// Keys with straight ways (slerp) between them instead of curves
     #[arg(long)]
     linear: bool,
-    /// Write rotations as Euler angles in degrees in this order, instead of quaternions
+    /// Write the quaternions as Euler angles in degrees in this order; they stay quaternions between keys
     #[arg(long, value_name = "ORDER")]
     euler: Option<EulerOrder>,
 }
@@ -66,6 +67,7 @@ pub(super) fn run(args: &ReduceArgs, global: &Global) -> Result<(), Failure> {
     let loaded = load::load(input, global)?;
     let in_file = |failure: Failure| failure.in_file(&name);
     let motion = loaded.motion(PositionPolicy::Replace).map_err(in_file)?;
+    drop(loaded);
     let config = ReduceConfig {
         angle_deg: args.angle,
         distance_heights: args.distance,
@@ -75,14 +77,23 @@ pub(super) fn run(args: &ReduceArgs, global: &Global) -> Result<(), Failure> {
             Interpolation::Cubic
         },
     };
-    let reduction =
-        reduce(&motion, &config).map_err(|error| in_file(Failure::new(error.to_string())))?;
     let mut scene = Scene::new(SkeletonSource::inline(motion.skeleton()));
     scene.title = name.clone();
     scene.range_secs = [0.0, motion.duration_secs()];
     scene.frames_per_sec = 1.0 / motion.frame_time_secs();
+    if motion.frame_time_secs() > 0.0 {
+        // What is written must be read again: that is seen before the work is done.
+        scene::check(&scene).map_err(|error| in_file(Failure::new(error.to_string())))?;
+    }
+    let reduction =
+        reduce(&motion, &config).map_err(|error| in_file(Failure::new(error.to_string())))?;
+    let dense = dense_keys(&motion);
+    // Keys and their text take memory of their own.
+    drop(motion);
     scene.set_animation(&reduction.animation, args.euler);
+    scene::check(&scene).map_err(|error| in_file(Failure::new(error.to_string())))?;
     let bytes = scene::write(&scene);
+    drop(scene);
     let one = inputs::Inputs {
         list: vec![input.clone()],
         ..inputs::Inputs::default()
@@ -93,10 +104,12 @@ pub(super) fn run(args: &ReduceArgs, global: &Global) -> Result<(), Failure> {
             write_whole(path, |file| file.write_all(&bytes))?;
             if !global.quiet {
                 console::note(&format!(
-                    "wrote {}: {}, {} that a key at every frame would take; within {} degrees and {} % of the height",
+                    "wrote {}: {} in quaternions{}, {} that a key at every frame would take; within {} degrees and {} % of the height",
                     path.display(),
                     counted(reduction.animation.key_count(), "key"),
-                    share(reduction.animation.key_count(), dense_keys(&motion)),
+                    args.euler
+                        .map_or_else(String::new, |order| format!(" (written as {order} angles)")),
+                    share(reduction.animation.key_count(), dense),
                     trimmed(reduction.error.angle_deg, 3),
                     trimmed(100.0 * reduction.error.distance_heights, 3),
                 ));

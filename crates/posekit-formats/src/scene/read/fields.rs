@@ -12,11 +12,23 @@ use crate::report::quote;
 #[derive(Default)]
 pub(crate) struct Problems {
     pub(super) list: Vec<Found>,
+    /// What is odd, though it can be read.
+    pub(super) warnings: Vec<Found>,
 }
 
 impl Problems {
     pub(crate) fn at(&mut self, node: &Node<'_>, kind: SceneProblemKind, message: String) {
         self.push(kind, node.span.clone(), node.path.clone(), message);
+    }
+
+    /// Says what is odd about a value that can be read.
+    pub(crate) fn warn(&mut self, node: &Node<'_>, kind: SceneProblemKind, message: String) {
+        self.warnings.push(Found {
+            kind,
+            span: node.span.clone(),
+            path: node.path.clone(),
+            message,
+        });
     }
 
     /// Says that a value is not what its field holds.

@@ -35,6 +35,8 @@ pub enum SceneProblemKind {
     WrongValue,
     /// Keys that make no track, joints that make no skeleton.
     Inconsistent,
+    /// Angles that turn further than quaternions do between two keys: a warning.
+    LostTurn,
 }
 
 /// One thing that is wrong with a file.
@@ -91,7 +93,27 @@ impl std::error::Error for SceneReadError {}
 /// [`SceneReadError`] with every problem: text that is no TOML, a newer version, and fields that are
 /// missing, unknown, of another kind or inconsistent.
 pub fn read(bytes: &[u8]) -> Result<Scene, SceneReadError> {
-    read_as(bytes, FORMAT, VERSION, parts::scene)
+    read_with_warnings(bytes).map(|(scene, _)| scene)
+}
+
+/// Reads a scene, and says what in it will not come out as it may have been meant: at most 32 warnings, in
+/// the order of the text.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_with_warnings(bytes: &[u8]) -> Result<(Scene, Vec<SceneProblem>), SceneReadError> {
+    let mut warnings = Vec::new();
+    let scene = read_as(bytes, FORMAT, VERSION, |fields, version, problems| {
+        let scene = parts::scene(fields, version, problems);
+        warnings = std::mem::take(&mut problems.warnings);
+        scene
+    })?;
+    let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let warnings = Problems {
+        list: warnings,
+        ..Problems::default()
+    };
+    Ok((scene, located(text, warnings).problems))
 }
 
 /// Reads what a file of a format and a version up to `newest` holds.
@@ -99,7 +121,7 @@ pub(crate) fn read_as<T>(
     bytes: &[u8],
     format: &str,
     newest: u32,
-    parts: impl FnOnce(&mut Fields<'_>, &mut Problems) -> Option<T>,
+    parts: impl FnOnce(&mut Fields<'_>, u32, &mut Problems) -> Option<T>,
 ) -> Result<T, SceneReadError> {
     let text = match std::str::from_utf8(bytes) {
         Ok(text) => text,
@@ -121,48 +143,41 @@ pub(crate) fn read_as<T>(
     })?;
     let mut problems = Problems::default();
     let mut fields = Fields::new(document.get_ref(), 0..0, String::new());
-    let whole = if is_readable(&mut fields, (format, newest), &mut problems) {
-        parts(&mut fields, &mut problems)
-    } else {
-        None
-    };
+    let version = readable_version(&mut fields, (format, newest), &mut problems);
+    let whole = version.and_then(|version| parts(&mut fields, version, &mut problems));
     match whole {
         Some(whole) if problems.list.is_empty() => Ok(whole),
         _ => Err(located(text.as_bytes(), problems)),
     }
 }
 
-/// Whether the file is of a format, in a version that is known.
-fn is_readable(
+/// The file's version, if it is of a format, in a version that is known.
+fn readable_version(
     fields: &mut Fields<'_>,
     (expected, newest): (&str, u32),
     problems: &mut Problems,
-) -> bool {
-    let Some(format) = fields.required("format", problems) else {
-        return false;
-    };
+) -> Option<u32> {
+    let format = fields.required("format", problems)?;
     if format.text() != Some(expected) {
         let message = format!("expected \"{expected}\", found {}", format.shown());
         problems.at(&format, SceneProblemKind::NotAScene, message);
-        return false;
+        return None;
     }
-    let Some(version) = fields.required("version", problems) else {
-        return false;
-    };
+    let version = fields.required("version", problems)?;
     match version.whole_number() {
-        Some(1) => true,
+        Some(found) if (1..=i64::from(newest)).contains(&found) => u32::try_from(found).ok(),
         Some(found) if found > i64::from(newest) => {
             let message = format!(
                 "this file is of version {found} of the format; this program reads up to \
                  {newest}: a newer posekit can open it"
             );
             problems.at(&version, SceneProblemKind::NewerVersion, message);
-            false
+            None
         }
         _ => {
             let message = format!("expected a version from 1 on, found {}", version.shown());
             problems.at(&version, SceneProblemKind::WrongValue, message);
-            false
+            None
         }
     }
 }
@@ -199,5 +214,9 @@ fn one(bytes: &[u8], at: usize, kind: SceneProblemKind, message: &str) -> SceneR
         path: String::new(),
         message: message.to_owned(),
     }];
-    located(bytes, Problems { list })
+    let problems = Problems {
+        list,
+        ..Problems::default()
+    };
+    located(bytes, problems)
 }

@@ -10,21 +10,21 @@ use super::SceneProblemKind;
 use super::fields::{Fields, Node, Problems};
 use super::tracks::{NUMBER, QUATERNION, VECTOR, joint_track, property};
 use crate::scene::document::{
-    Camera, InlineJoint, Light, MotionLayer, Prop, Scene, SkeletonSource,
+    Camera, FASTEST, InlineJoint, Light, MOST_FRAMES, MotionLayer, Prop, Scene, SkeletonSource,
 };
 
-/// The most frames that a scene's range may have at its rate: more than a day at 60 a second, and few
-/// enough that a slip of the pen does not ask for all memory there is.
-const MOST_FRAMES: f64 = 1e7;
-
 /// The whole document, `format` and `version` already looked at.
-pub(super) fn scene(fields: &mut Fields<'_>, problems: &mut Problems) -> Option<Scene> {
+pub(super) fn scene(
+    fields: &mut Fields<'_>,
+    version: u32,
+    problems: &mut Problems,
+) -> Option<Scene> {
     let title = fields.take_or("title", String::new(), "text", problems, owned);
     let times = "a start and an end in seconds, the end not before the start";
     let range_secs = fields.take_or("range_secs", [0.0, 1.0], times, problems, range);
     let rate = "a rate over 0, and at most 10000";
     let frames_per_sec = fields.take_or("frames_per_sec", 30.0, rate, problems, |node| {
-        node.number().filter(|&rate| rate > 0.0 && rate <= 10_000.0)
+        node.number().filter(|&rate| rate > 0.0 && rate <= FASTEST)
     });
     let frames = (range_secs[1] - range_secs[0]) * frames_per_sec;
     if frames.is_nan() || frames > MOST_FRAMES {
@@ -39,7 +39,7 @@ pub(super) fn scene(fields: &mut Fields<'_>, problems: &mut Problems) -> Option<
     }
     let mut tracks = Vec::new();
     for mut table in fields.tables("track", problems) {
-        tracks.extend(joint_track(&mut table, problems));
+        tracks.extend(joint_track(&mut table, version, problems));
     }
     let mut cameras = Vec::new();
     for mut table in fields.tables("camera", problems) {
@@ -239,7 +239,7 @@ fn prop(fields: &mut Fields<'_>, problems: &mut Problems) -> Option<Prop> {
     })
 }
 
-fn or_default<V: posekit::keyframe::KeyValue>(
+fn or_default<V: posekit::keyframe::KeyValue + std::ops::Neg<Output = V>>(
     fields: &mut Fields<'_>,
     name: &'static str,
     kind: &super::tracks::Kind<V>,

@@ -1,6 +1,7 @@
 //! Scene files: what is read, what is refused and where, and that writing loses nothing.
 
 mod authored_walk;
+mod euler;
 mod reading;
 mod refusals;
 mod round_trip;

@@ -21,7 +21,7 @@ fn a_newer_file_is_refused_by_its_number_alone() {
     assert_eq!(error.problems.len(), 1);
     assert_eq!(error.problems[0].kind, Kind::NewerVersion);
     assert!(error.to_string().contains("version 7"), "{error}");
-    assert!(error.to_string().contains("reads up to 1"), "{error}");
+    assert!(error.to_string().contains("reads up to 2"), "{error}");
 }
 
 #[test]

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3};
 use posekit::keyframe::edit::{KeyPoseConfig, KeyedJoints, key_pose};
 use posekit::keyframe::{
-    Animation, Extrapolation, Interpolation, KeyValue, KeyedCamera, Keyframe, Property, Tangents,
-    Track,
+    Animation, EulerTrack, Extrapolation, Handle, HandlePair, Interpolation, KeyValue, KeyedCamera,
+    Keyframe, Property, Tangents, Track,
 };
 use posekit::rotation::{EulerOrder, angle_between};
 use posekit_formats::scene::{
@@ -201,6 +201,8 @@ proptest! {
         rotation in track_of(quaternion().boxed(), four().boxed()),
         translation in track_of(vector().boxed(), vector().boxed()),
         joint in any::<String>(),
+        angles in track_of(vector().boxed(), vector().boxed()),
+        handles in vec((vector(), vector(), vector(), vector(), prop::bool::ANY), 6),
         position in property(vector().boxed()),
         fov in property(number().boxed()),
     ) {
@@ -210,7 +212,22 @@ proptest! {
         scene.motions = layers.into_iter().map(|(file, start_secs, clipped)| MotionLayer {
             file, start_secs, clip_secs: clipped.then_some([0.125, 2.0]),
         }).collect();
+        let keys = angles.keys().iter().zip(handles).map(|(key, (a, b, c, d, is_broken))| Keyframe {
+            tangents: if key.tangents == Tangents::Auto {
+                Tangents::Handles {
+                    incoming: Handle { secs: a.abs(), value: b },
+                    outgoing: Handle { secs: c.abs(), value: d },
+                    pair: if is_broken { HandlePair::Broken } else { HandlePair::Aligned },
+                }
+            } else {
+                key.tangents
+            },
+            ..*key
+        });
+        let angles = Track::with_ends(keys.collect(), angles.before(), angles.after()).unwrap();
+        let curves = EulerTrack::new(EulerOrder::YZX, angles).unwrap();
         scene.tracks = vec![
+            JointTrack { joint: "curves".to_owned(), values: JointValues::EulerRotation(Arc::new(curves)) },
             JointTrack { joint: joint.clone(), values: JointValues::Rotation { track: rotation.into(), euler: None } },
             JointTrack { joint, values: JointValues::Translation(translation.into()) },
         ];

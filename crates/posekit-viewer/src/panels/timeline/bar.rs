@@ -174,6 +174,11 @@ fn ways(ui: &mut Ui, session: &mut Session, asked: &mut Asked) {
     };
     let (response, _) = MenuButton::new(name).ui(ui, |ui| {
         ui.set_width(210.0);
+        ui.menu_button("Rotation mode", |ui| {
+            if menu::show(ui, Menu::Mode, session) {
+                ui.close();
+            }
+        });
         for (says, command, needs_some) in [
             ("Copy", KeysCommand::Copy, true),
             ("Paste at the playhead", KeysCommand::Paste, false),

@@ -7,6 +7,7 @@ use posekit::keyframe::{Extrapolation, Interpolation};
 
 use crate::state::animate::channel::TangentKind;
 use crate::state::animate::edit::keys::{extrapolated, interpolated};
+use crate::state::animate::edit::mode::{RotationMode, with_mode};
 use crate::state::animate::edit::tangents::with_tangents;
 use crate::state::animate::{Authored, Lane, Owner};
 use crate::state::session::Session;
@@ -58,6 +59,8 @@ pub(super) enum Menu {
     Tangents,
     /// Of extrapolations.
     Extrapolation,
+    /// Of the modes of rotations.
+    Mode,
 }
 
 /// Shows a menu's lines. True when something was chosen.
@@ -66,6 +69,59 @@ pub(super) fn show(ui: &mut Ui, menu: Menu, session: &mut Session) -> bool {
         Menu::Interpolation => interpolation(ui, session),
         Menu::Tangents => tangents(ui, session),
         Menu::Extrapolation => extrapolation(ui, session),
+        Menu::Mode => mode(ui, session),
+    }
+}
+
+fn mode(ui: &mut Ui, session: &mut Session) -> bool {
+    ui.set_width(190.0);
+    let lanes = lanes_meant(session);
+    let Some(authored) = session.authored() else {
+        return false;
+    };
+    let modes: Vec<RotationMode> = lanes
+        .iter()
+        .filter(|lane| matches!(lane, Lane::Rotation(_)))
+        .filter_map(|lane| RotationMode::of(authored.track(*lane)?))
+        .collect();
+    let title = match modes.len() {
+        0 => "No keyed rotation is meant".to_owned(),
+        1 => "1 rotation is keyed as".to_owned(),
+        count => format!("{count} rotations are keyed as"),
+    };
+    ui.label(egui::RichText::new(title).small().weak());
+    for mode in RotationMode::all() {
+        let says = match mode {
+            RotationMode::Quaternion => {
+                "The short way from key to key: no gimbal lock, no turn over 180\u{b0}"
+            }
+            RotationMode::Euler(_) => {
+                "Three curves of angles, that turn as far and as often as they say"
+            }
+        };
+        let is_now = !modes.is_empty() && modes.iter().all(|now| *now == mode);
+        let button = egui::Button::selectable(is_now, mode.name());
+        let button = ui.add_enabled(!modes.is_empty(), button);
+        if button.on_hover_text(says).clicked() {
+            set_mode(session, mode);
+            return true;
+        }
+    }
+    false
+}
+
+/// The rotations that are meant, keyed in another mode.
+pub(super) fn set_mode(session: &mut Session, mode: RotationMode) {
+    let lanes = lanes_meant(session);
+    let changed = session.author(|authored| {
+        let changed = with_mode(authored, lanes, mode)?;
+        let name = format!("Key rotations as {}", mode.name());
+        let edit = changed.edit;
+        authored.set_tracks(&name, None, edit.changes, edit.selection);
+        Some(changed.says)
+    });
+    if let Some(says) = changed.flatten() {
+        session.tell(says);
     }
 }
 
@@ -83,7 +139,7 @@ fn interpolation(ui: &mut Ui, session: &mut Session) -> bool {
     for way in INTERPOLATIONS {
         let says = match way {
             Interpolation::Step => "Keep the value and jump at the next key",
-            Interpolation::Linear => "Straight on at an even pace; slerp for rotations",
+            Interpolation::Linear => "Straight on at an even pace; slerp for quaternions",
             Interpolation::Squad => "A smooth curve through the keys, without tangents",
             _ => "A smooth curve with tangents",
         };
@@ -140,8 +196,8 @@ pub(super) fn tangents_say(kind: TangentKind) -> &'static str {
         TangentKind::Auto => "Smooth, and never beyond the values of the keys",
         TangentKind::Smooth => "Smooth, whatever the values in between come to",
         TangentKind::Flat => "Level at the key",
-        TangentKind::Aligned => "Set by hand, one slope for both sides",
-        TangentKind::Broken => "Set by hand, a slope for each side",
+        TangentKind::Aligned => "Set by hand, both handles in one line",
+        TangentKind::Broken => "Set by hand, each handle by itself",
     }
 }
 

@@ -4,9 +4,13 @@
 use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
-use posekit::keyframe::{Extrapolation, Interpolation, Property, Track};
+use posekit::keyframe::{
+    ConvertConfig, EulerTrack, Extrapolation, Interpolation, Property, RotationTrack, Track,
+    to_euler,
+};
+use posekit::rotation::EulerOrder;
 use posekit::skeleton::{JointId, Skeleton};
-use posekit_formats::scene::{JointTrack, JointValues, Scene};
+use posekit_formats::scene::{EulerNotation, JointTrack, JointValues, Scene};
 
 /// A property that can be keyed. Cameras, lights and props are counted as the scene lists them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -143,8 +147,10 @@ pub enum LaneTrack<'a> {
     Number(&'a Track<f64>),
     /// Of a vector.
     Vector(&'a Track<DVec3>),
-    /// Of an orientation.
+    /// Of an orientation, as quaternions.
     Orientation(&'a Track<DQuat>),
+    /// Of an orientation, as Euler curves.
+    Euler(&'a EulerTrack),
 }
 
 /// Does the same with a track of any kind.
@@ -154,6 +160,10 @@ macro_rules! of_any_kind {
             LaneTrack::Number($track) => $does,
             LaneTrack::Vector($track) => $does,
             LaneTrack::Orientation($track) => $does,
+            LaneTrack::Euler(euler) => {
+                let $track = euler.angles_deg();
+                $does
+            }
         }
     };
 }
@@ -193,6 +203,7 @@ impl LaneTrack<'_> {
             LaneTrack::Number(track) => TrackValue::Number(track.clone()),
             LaneTrack::Vector(track) => TrackValue::Vector(track.clone()),
             LaneTrack::Orientation(track) => TrackValue::Orientation(track.clone()),
+            LaneTrack::Euler(track) => TrackValue::Euler(track.clone()),
         }
     }
 }
@@ -204,8 +215,28 @@ pub enum TrackValue {
     Number(Track<f64>),
     /// Of a vector.
     Vector(Track<DVec3>),
-    /// Of an orientation.
+    /// Of an orientation, as quaternions.
     Orientation(Track<DQuat>),
+    /// Of an orientation, as Euler curves.
+    Euler(EulerTrack),
+}
+
+impl From<RotationTrack> for TrackValue {
+    fn from(track: RotationTrack) -> Self {
+        match track {
+            RotationTrack::Quaternion(track) => Self::Orientation(Arc::unwrap_or_clone(track)),
+            RotationTrack::Euler(track) => Self::Euler(Arc::unwrap_or_clone(track)),
+        }
+    }
+}
+
+impl<'a> From<&'a RotationTrack> for LaneTrack<'a> {
+    fn from(track: &'a RotationTrack) -> Self {
+        match track {
+            RotationTrack::Quaternion(track) => Self::Orientation(track),
+            RotationTrack::Euler(track) => Self::Euler(track),
+        }
+    }
 }
 
 impl TrackValue {
@@ -216,6 +247,7 @@ impl TrackValue {
             Self::Number(track) => LaneTrack::Number(track),
             Self::Vector(track) => LaneTrack::Vector(track),
             Self::Orientation(track) => LaneTrack::Orientation(track),
+            Self::Euler(track) => LaneTrack::Euler(track),
         }
     }
 }
@@ -283,7 +315,10 @@ pub(super) fn put_track(
 ) -> bool {
     match (lane, track) {
         (Lane::Rotation(joint), Some(TrackValue::Orientation(track))) => {
-            put_rotation(scene, skeleton, joint, Arc::new(track))
+            put_rotation(scene, skeleton, joint, track.into())
+        }
+        (Lane::Rotation(joint), Some(TrackValue::Euler(track))) => {
+            put_rotation(scene, skeleton, joint, track.into())
         }
         (Lane::Translation(joint), Some(TrackValue::Vector(track))) => {
             put_translation(scene, skeleton, joint, Arc::new(track));
@@ -304,43 +339,70 @@ pub(super) fn put_track(
 fn lane_of(track: &JointTrack, skeleton: &Skeleton) -> Option<Lane> {
     let joint = skeleton.find(&track.joint)?;
     Some(match track.values {
-        JointValues::Rotation { .. } => Lane::Rotation(joint),
+        JointValues::Rotation { .. } | JointValues::EulerRotation(_) => Lane::Rotation(joint),
         JointValues::Translation(_) => Lane::Translation(joint),
     })
 }
 
-/// A rotation that is keyed newly is written as the scene writes others: in the Euler order of the
-/// first that has one, or as quaternions.
+/// A rotation that is keyed newly, with a first key, is keyed as the scene keys others: in the mode of the
+/// first that there is. Quaternions are written in the Euler order of the first that has one.
 fn put_rotation(
     scene: &mut Scene,
     skeleton: &Skeleton,
     joint: JointId,
-    new: Arc<Track<DQuat>>,
+    new: RotationTrack,
 ) -> bool {
     if joint.index() >= skeleton.joint_count() || skeleton.is_end_site(joint) {
         return false;
     }
     let lane = Some(Lane::Rotation(joint));
     let mut notation = None;
+    let mut curves = None;
     for old in &mut scene.tracks {
         let is_it = lane_of(old, skeleton) == lane;
-        if let JointValues::Rotation { track, euler } = &mut old.values {
-            if is_it {
-                *track = new;
-                return true;
+        let (order, is_curves) = match &old.values {
+            JointValues::Rotation { euler, .. } => (euler.as_ref().map(|euler| euler.order), false),
+            JointValues::EulerRotation(track) => (Some(track.order()), true),
+            JointValues::Translation(_) => continue,
+        };
+        if is_it {
+            match (&mut old.values, new) {
+                // The angles of keys that stay are kept as the file has them.
+                (JointValues::Rotation { track, .. }, RotationTrack::Quaternion(new)) => {
+                    *track = new;
+                }
+                (values, new) => *values = rotation_values(new, order),
             }
-            notation = notation.or(euler.as_ref().map(|euler| euler.order));
+            return true;
         }
+        notation = notation.or(order);
+        curves = curves.or(Some(order.filter(|_| is_curves)));
     }
-    let euler = notation.map(|order| posekit_formats::scene::EulerNotation {
-        order,
-        angles_deg: Vec::new(),
+    let first_key = new.as_quaternion().filter(|track| track.keys().len() == 1);
+    let in_curves = first_key.zip(curves.flatten()).and_then(|(track, order)| {
+        let converted = to_euler(track, order, DVec3::ZERO, &ConvertConfig::default());
+        converted.ok().map(|converted| converted.track.into())
     });
+    let new = in_curves.unwrap_or(new);
     scene.tracks.push(JointTrack {
         joint: skeleton.unique_name(joint).to_owned(),
-        values: JointValues::Rotation { track: new, euler },
+        values: rotation_values(new, notation),
     });
     true
+}
+
+/// A rotation's values; quaternions in the notation of an order, if there is one.
+fn rotation_values(track: RotationTrack, order: Option<EulerOrder>) -> JointValues {
+    match track {
+        RotationTrack::Euler(track) => JointValues::EulerRotation(track),
+        RotationTrack::Quaternion(track) => JointValues::Rotation {
+            track,
+            euler: order.map(|order| EulerNotation {
+                order,
+                angles_deg: Vec::new(),
+            }),
+        },
+    }
 }
 
 fn put_translation(scene: &mut Scene, skeleton: &Skeleton, joint: JointId, new: Arc<Track<DVec3>>) {

@@ -154,8 +154,7 @@ impl Authored {
         let exists = |joint: JointId| joint.index() < animation.skeleton().joint_count();
         match lane {
             Lane::Rotation(joint) if exists(joint) => {
-                let track = animation.rotation(joint)?;
-                Some(LaneTrack::Orientation(track.as_ref()))
+                animation.rotation(joint).map(LaneTrack::from)
             }
             Lane::Translation(joint) if exists(joint) => {
                 let track = animation.translation(joint)?;

@@ -8,6 +8,7 @@ use posekit::pose::LocalPose;
 use posekit::skeleton::JointId;
 
 use super::{ClipId, Session};
+use crate::state::animate::edit::mode::{LOST_TURN, loses_turns};
 use crate::state::animate::edit::pose::{changed_joints, keys_of_change, keys_of_pose};
 use crate::state::animate::{Authored, edit::Edit};
 use crate::state::clip::{Clip, Source};
@@ -122,6 +123,9 @@ impl Session {
             return;
         };
         self.forget_edits(id);
+        if loses_turns(authored.scene()) {
+            self.tell(LOST_TURN);
+        }
         let path = authored.path().map(ToOwned::to_owned);
         let motion = Arc::new(authored.bake());
         let old = &self.clips[index].clip;

@@ -78,6 +78,8 @@ pub struct Session {
     limbs: Limbs,
     things: Things,
     authoring: Authoring,
+    /// What is to be told to whoever works here.
+    told: Vec<String>,
 }
 
 impl Default for Session {
@@ -107,12 +109,26 @@ impl Session {
             limbs: Limbs::default(),
             things: Things::default(),
             authoring: Authoring::default(),
+            told: Vec::new(),
         };
         session.set_stage();
         session
             .camera
             .look_from(View::ThreeQuarter, &session.stage, session.aspect);
         session
+    }
+
+    /// Leaves a word for whoever works here.
+    pub fn tell(&mut self, text: impl Into<String>) {
+        let text = text.into();
+        if !self.told.contains(&text) {
+            self.told.push(text);
+        }
+    }
+
+    /// What was told since this was asked last.
+    pub fn take_told(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.told)
     }
 
     /// Adds a clip and makes it the active one, alone on the stage, playing.

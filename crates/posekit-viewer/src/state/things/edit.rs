@@ -194,6 +194,11 @@ pub fn keyed(
                         with(Some(track), value, time_secs, interpolation).map(TrackValue::$kind)
                     }
                 )*
+                (Some(LaneTrack::Euler(track)), LaneValue::Orientation(value)) => {
+                    let angles = track.angles_near_deg(value, time_secs);
+                    let made = with(Some(track.angles_deg()), angles, time_secs, interpolation);
+                    made.map(|angles| TrackValue::Euler(track.with_angles_deg(angles)))
+                }
                 _ => None,
             }
         };
@@ -208,5 +213,7 @@ pub fn unkeyed(track: LaneTrack<'_>, index: usize) -> Option<TrackValue> {
         LaneTrack::Number(track) => delete_keys(track, &[index]).map(TrackValue::Number),
         LaneTrack::Vector(track) => delete_keys(track, &[index]).map(TrackValue::Vector),
         LaneTrack::Orientation(track) => delete_keys(track, &[index]).map(TrackValue::Orientation),
+        LaneTrack::Euler(track) => delete_keys(track.angles_deg(), &[index])
+            .map(|angles| TrackValue::Euler(track.with_angles_deg(angles))),
     }
 }

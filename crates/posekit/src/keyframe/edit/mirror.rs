@@ -5,16 +5,24 @@
 //! how the bones' own axes lie, as long as the rest pose itself is symmetric; for skeletons whose rest
 //! rotations are all zero (every BVH) it is the plain reflection of the local rotation. Partners are
 //! [`Skeleton::symmetric_pairs`]; a joint in no pair is mirrored onto itself.
+//!
+//! **Euler curves** keep their order. Where both joints' axes at rest are mirror images of each other (every
+//! BVH), the angle about the axis across the figure keeps its sign and the other two change theirs, keys,
+//! slopes and handles alike; whole turns stay. Where the axes lie otherwise, no change of signs does it: the
+//! image is taken rotation by rotation, as [`to_euler`](super::super::to_euler) does, with keys added until it
+//! is within a tenth of a degree.
 
 use glam::{DQuat, DVec3};
 
 use super::time::EditError;
 use crate::keyframe::animation::Animation;
-use crate::keyframe::key::{Keyframe, Tangents};
+use crate::keyframe::convert::{ConvertConfig, Source, euler_of_curve};
+use crate::keyframe::euler::{EulerTrack, RotationTrack};
+use crate::keyframe::key::{Handle, Keyframe, Tangents};
 use crate::keyframe::track::Track;
 use crate::keyframe::value::KeyValue;
 use crate::pose::{GlobalPose, LocalPose};
-use crate::rotation::Axis;
+use crate::rotation::{Axis, angle_between};
 use crate::skeleton::{JointId, Skeleton};
 
 /// The axis, in world space, that points from one side of a figure to the other.
@@ -77,22 +85,34 @@ pub fn mirror_animation(
     let mut image = Animation::new(skeleton.clone());
     for (joint, track) in animation.rotations() {
         let way = mirror.way(joint);
-        let track = mapped(track, later_secs, |rotation| way.rotation(rotation))?;
+        let track: RotationTrack = match track {
+            RotationTrack::Quaternion(track) => mapped(
+                track,
+                later_secs,
+                |rotation| way.rotation(rotation),
+                |none| none,
+            )?
+            .into(),
+            RotationTrack::Euler(track) => way.euler(track, later_secs)?.into(),
+        };
         image = image.with_rotation(way.to, Some(track));
     }
     for (joint, track) in animation.translations() {
         let way = mirror.way(joint);
-        let track = mapped(track, later_secs, |vector| way.vector(vector))?;
+        let size = |secs| way.size(secs);
+        let track = mapped(track, later_secs, |vector| way.vector(vector), size)?;
         image = image.with_translation(way.to, Some(track));
     }
     Ok(image)
 }
 
-/// The track with a linear map done to values and slopes, keys moved in time.
+/// The track with a linear map done to values and slopes, keys moved in time. `map_size` does it to how far
+/// handles reach in time.
 fn mapped<V: KeyValue>(
     track: &Track<V>,
     later_secs: f64,
     map: impl Fn(V) -> V,
+    map_size: impl Fn(V) -> V,
 ) -> Result<Track<V>, EditError> {
     let keys = track.keys().iter().map(|key| Keyframe {
         time_secs: key.time_secs + later_secs,
@@ -104,6 +124,21 @@ fn mapped<V: KeyValue>(
                 incoming: map(incoming),
                 outgoing: map(outgoing),
             },
+            Tangents::Handles {
+                incoming,
+                outgoing,
+                pair,
+            } => {
+                let image = |handle: Handle<V>| Handle {
+                    secs: map_size(handle.secs),
+                    value: map(handle.value),
+                };
+                Tangents::Handles {
+                    incoming: image(incoming),
+                    outgoing: image(outgoing),
+                    pair,
+                }
+            }
             by_neighbours => by_neighbours,
         },
     });
@@ -180,6 +215,54 @@ impl Way {
         let mut in_world = parent * vector;
         in_world[self.axis.index()] *= -1.0;
         parent_to.conjugate() * in_world
+    }
+
+    /// How far in time the image's handles reach. Where a component is made of several, so is its reach.
+    fn size(&self, secs: DVec3) -> DVec3 {
+        let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| {
+            let image = self.vector(axis);
+            image * image
+        });
+        x * secs.x + y * secs.y + z * secs.z
+    }
+
+    /// Euler curves in the same order. See the module's documentation for the signs.
+    fn euler(&self, track: &EulerTrack, later_secs: f64) -> Result<EulerTrack, EditError> {
+        /// Rest axes this far from each other's images are not meant to be so; a file's digits are finer.
+        const SAME_AXES_RAD: f64 = 1e-4;
+        let order = track.order();
+        let angles = track.angles_deg();
+        let is_of_signs = [
+            DQuat::IDENTITY,
+            DQuat::from_rotation_x(1.0),
+            DQuat::from_rotation_y(1.0),
+            DQuat::from_rotation_z(1.0),
+        ]
+        .into_iter()
+        .all(|turn| {
+            let by_signs = mirrored_rotation(turn, self.axis);
+            angle_between(self.rotation(turn), by_signs) < SAME_AXES_RAD
+        });
+        if is_of_signs {
+            let mut signs = DVec3::ONE;
+            for (slot, axis) in order.axes().iter().enumerate() {
+                if *axis != self.axis {
+                    signs[slot] = -1.0;
+                }
+            }
+            let image = mapped(angles, later_secs, |angles| angles * signs, |secs| secs)?;
+            return Ok(track.with_angles_deg(image));
+        }
+        let times: Vec<f64> = angles.times_secs().iter().map(|t| t + later_secs).collect();
+        let source = Source {
+            times_secs: &times,
+            ways: angles.keys().iter().map(|key| key.interpolation).collect(),
+            beyond: [angles.before(), angles.after()],
+        };
+        let image = |time: f64| self.rotation(track.sample(time - later_secs));
+        let near = angles.sample(angles.start_secs());
+        let converted = euler_of_curve(&source, image, order, near, &ConvertConfig::default())?;
+        Ok(converted.track)
     }
 }
 

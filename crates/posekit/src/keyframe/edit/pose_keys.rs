@@ -4,6 +4,7 @@ use glam::{DQuat, DVec3};
 
 use super::time::{EditError, SAME_TIME_SECS, insert_key};
 use crate::keyframe::animation::Animation;
+use crate::keyframe::euler::{RotationTrack, quat_of_deg};
 use crate::keyframe::extrapolation::Extrapolation;
 use crate::keyframe::key::{Interpolation, Keyframe};
 use crate::keyframe::track::Track;
@@ -57,7 +58,7 @@ pub fn key_pose(
     for joint in joints {
         if !skeleton.is_end_site(joint) {
             let value = pose.rotations[joint.index()].as_dquat().normalize();
-            let track = with_key(animation.rotation(joint).map(AsRef::as_ref), value, config)?;
+            let track = with_rotation_key(animation.rotation(joint), value, config)?;
             keyed = keyed.with_rotation(joint, Some(track));
         }
         let moves = skeleton.parent(joint).is_none() || animation.translation(joint).is_some();
@@ -72,6 +73,22 @@ pub fn key_pose(
         }
     }
     Ok(keyed)
+}
+
+/// A key of a rotation in the mode of its track; without a track, of quaternions. Euler curves get the angles
+/// that lie nearest to what they are at that time.
+fn with_rotation_key(
+    track: Option<&RotationTrack>,
+    value: DQuat,
+    config: &KeyPoseConfig,
+) -> Result<RotationTrack, EditError> {
+    if let Some(RotationTrack::Euler(euler)) = track {
+        let angles = euler.angles_near_deg(value, config.time_secs);
+        let keyed = with_key(Some(euler.angles_deg()), angles, config)?;
+        return Ok(euler.with_angles_deg(keyed).into());
+    }
+    let quaternions = track.and_then(RotationTrack::as_quaternion);
+    Ok(with_key(quaternions.map(AsRef::as_ref), value, config)?.into())
 }
 
 fn with_key<V: KeyValue>(
@@ -131,7 +148,13 @@ pub fn breakdown_pose(
     let mut pose = animation.sample(time_secs);
     for joint in joints {
         if let Some(track) = animation.rotation(joint) {
-            let value: DQuat = breakdown_value(track, time_secs, share);
+            let value = match track {
+                RotationTrack::Quaternion(track) => breakdown_value(track, time_secs, share),
+                RotationTrack::Euler(euler) => {
+                    let angles = breakdown_value(euler.angles_deg(), time_secs, share);
+                    quat_of_deg(euler.order(), angles)
+                }
+            };
             pose.rotations[joint.index()] = value.as_quat();
         }
         if let Some(track) = animation.translation(joint) {

@@ -55,6 +55,24 @@ pub fn key_on_curve<V: KeyValue>(track: &Track<V>, time_secs: f64) -> Keyframe<V
     }
 }
 
+/// The track with a key put onto its curve, which moves as little as can be ([`key_on_curve`]): where handles
+/// are free in time, and on curves of numbers and vectors with slopes set by hand, not at all.
+///
+/// # Errors
+/// [`EditError::Track`] when the time is not finite.
+pub fn insert_on_curve<V: KeyValue>(
+    track: &Track<V>,
+    time_secs: f64,
+) -> Result<Track<V>, EditError> {
+    let is_there = |at: &f64| (at - time_secs).abs() <= SAME_TIME_SECS;
+    if !track.times_secs().iter().any(is_there)
+        && let Some((start, keys)) = track.cut_at(time_secs)
+    {
+        return replace_keys(track, &[start, start + 1], keys.to_vec());
+    }
+    insert_key(track, key_on_curve(track, time_secs))
+}
+
 /// The track with the selected keys moved in time. A key that they land on is replaced; they may pass
 /// others.
 ///
@@ -90,7 +108,23 @@ pub fn scale_keys<V: KeyValue>(
     let (mut chosen, kept) = divided(track, selected);
     for key in &mut chosen {
         key.time_secs = pivot_secs + (key.time_secs - pivot_secs) * factor;
-        key.tangents = with_tangents(key.tangents, |tangent| tangent.scaled(1.0 / factor));
+        key.tangents = match key.tangents {
+            Tangents::Handles {
+                mut incoming,
+                mut outgoing,
+                pair,
+            } => {
+                for handle in [&mut incoming, &mut outgoing] {
+                    handle.secs = handle.secs.scaled(factor);
+                }
+                Tangents::Handles {
+                    incoming,
+                    outgoing,
+                    pair,
+                }
+            }
+            tangents => with_tangents(tangents, |tangent| tangent.scaled(1.0 / factor)),
+        };
     }
     merged(track, kept, chosen)
 }
@@ -174,6 +208,8 @@ pub fn paste_keys<V: KeyValue>(
     merged(track, kept, pasted)
 }
 
+/// Slopes changed. Handles stay: numbers and vectors, which alone have them, keep their slopes when they are
+/// moved.
 fn with_tangents<V>(tangents: Tangents<V>, change: impl Fn(V) -> V) -> Tangents<V> {
     match tangents {
         Tangents::Aligned(tangent) => Tangents::Aligned(change(tangent)),

@@ -11,26 +11,36 @@ use crate::keyframe::key::{Interpolation, Keyframe, Tangents};
 use crate::keyframe::track::Track;
 use crate::keyframe::value::{KeyValue, Meeting};
 use crate::motion::Motion;
-use crate::skeleton::{JointId, Skeleton};
+use crate::skeleton::JointId;
 
 /// How much less than the tolerance a segment is fitted to, so that rounding to `f32` afterwards does not
 /// lift it over.
 const MARGIN: f64 = 0.999;
 
-/// The curves of a motion, ready to be fitted.
-pub(super) struct Curves {
-    frame_time_secs: f64,
-    rotations: Vec<Curve<DQuat>>,
-    translations: Vec<Curve<DVec3>>,
+/// A motion, ready to be fitted. Only one joint's curve is there in `f64` at a time.
+pub(super) struct Curves<'a> {
+    motion: &'a Motion,
     /// For each joint, how far its farthest descendant can be from it, in the file's unit.
     reaches: Vec<f64>,
     height: f64,
 }
 
+/// The frames that have a key, for each joint that is not at rest throughout.
+#[derive(Clone, Debug, Default)]
+pub(super) struct FrameKeys {
+    rotations: Vec<(JointId, Vec<u32>)>,
+    translations: Vec<(JointId, Vec<u32>)>,
+}
+
+impl FrameKeys {
+    pub(super) fn count(&self) -> usize {
+        let all = self.rotations.iter().chain(&self.translations);
+        all.map(|(_, frames)| frames.len()).sum()
+    }
+}
+
 /// The values and slopes of one property at every frame; slopes are changes over one frame.
 struct Curve<V> {
-    joint: JointId,
-    is_at_rest: bool,
     values: Vec<V>,
     slopes: Vec<V>,
 }
@@ -80,85 +90,134 @@ fn rounded(value: f64) -> f64 {
         .unwrap_or(value)
 }
 
-impl Curves {
-    pub(super) fn of(motion: &Motion) -> Self {
-        let skeleton = motion.skeleton();
-        let frames = motion.frame_count();
-        let rotations = motion.rotated_joints().iter().map(|&joint| {
-            let rest = skeleton.rest_rotation(joint);
-            let values = (0..frames).map(|frame| motion.rotation(frame, joint));
-            let is_at_rest = values.clone().all(|value| value == rest);
-            let values = values.map(|value| value.as_dquat().normalize()).collect();
-            Curve::new(joint, is_at_rest, values)
-        });
-        let translations = motion.translated_joints().iter().map(|&joint| {
-            let rest = skeleton.rest_translation(joint);
-            let values = (0..frames).map(|frame| motion.translation(frame, joint));
-            let is_at_rest = values.clone().all(|value| value == rest);
-            Curve::new(
-                joint,
-                is_at_rest,
-                values.map(|value| value.as_dvec3()).collect(),
-            )
-        });
-        let height = f64::from(skeleton.height());
+impl<'a> Curves<'a> {
+    pub(super) fn of(motion: &'a Motion) -> Self {
+        let height = f64::from(motion.skeleton().height());
         Self {
-            frame_time_secs: motion.frame_time_secs(),
-            rotations: rotations.collect(),
-            translations: translations.collect(),
+            motion,
             reaches: reaches(motion),
             height: if height > 0.0 { height } else { 1.0 },
         }
     }
 
-    /// Keys within a share of the distance that is allowed, and within the angle.
+    /// A joint's rotation; `None` where it is at rest throughout.
+    fn rotation(&self, joint: JointId) -> Option<Curve<DQuat>> {
+        let motion = self.motion;
+        let rest = motion.skeleton().rest_rotation(joint);
+        let values = (0..motion.frame_count()).map(|frame| motion.rotation(frame, joint));
+        if values.clone().all(|value| value == rest) {
+            return None;
+        }
+        let values = values.map(|value| value.as_dquat().normalize());
+        Some(Curve::new(values.collect()))
+    }
+
+    /// A joint's translation; `None` where it is at rest throughout.
+    fn translation(&self, joint: JointId) -> Option<Curve<DVec3>> {
+        let motion = self.motion;
+        let rest = motion.skeleton().rest_translation(joint);
+        let values = (0..motion.frame_count()).map(|frame| motion.translation(frame, joint));
+        if values.clone().all(|value| value == rest) {
+            return None;
+        }
+        Some(Curve::new(values.map(|value| value.as_dvec3()).collect()))
+    }
+
+    /// Keys within a share of the distance that is allowed, and within the angle; `baked`, a motion of the same
+    /// frames, becomes what they make.
     pub(super) fn fitted(
         &self,
-        skeleton: &Arc<Skeleton>,
         config: &ReduceConfig,
         share: f64,
-    ) -> Animation {
+        baked: &mut Motion,
+    ) -> FrameKeys {
         let distance = share * config.distance_heights * self.height * MARGIN;
         let angle_rad = config.angle_deg.to_radians() * MARGIN;
-        let mut animation = Animation::new(Arc::clone(skeleton));
-        for curve in self.rotations.iter().filter(|curve| !curve.is_at_rest) {
-            let reach = self.reaches[curve.joint.index()];
+        let way = config.interpolation;
+        let mut keys = FrameKeys::default();
+        for &joint in self.motion.rotated_joints() {
+            let Some(curve) = self.rotation(joint) else {
+                continue;
+            };
+            let reach = self.reaches[joint.index()];
             let tolerance = if reach > 0.0 {
                 angle_rad.min(distance / reach)
             } else {
                 angle_rad
             };
-            let frames = curve.key_frames(tolerance, config.interpolation);
-            let track = curve.track(&frames, self.frame_time_secs, config.interpolation);
-            animation = animation.with_rotation(curve.joint, track);
+            let frames = curve.key_frames(tolerance, way);
+            if let Some(track) = curve.track(&frames, self.motion.frame_time_secs(), way) {
+                bake_rotation(baked, joint, &track);
+            }
+            keys.rotations.push((joint, frames));
         }
-        for curve in self.translations.iter().filter(|curve| !curve.is_at_rest) {
-            let frames = curve.key_frames(distance, config.interpolation);
-            let track = curve.track(&frames, self.frame_time_secs, config.interpolation);
-            animation = animation.with_translation(curve.joint, track);
+        for &joint in self.motion.translated_joints() {
+            let Some(curve) = self.translation(joint) else {
+                continue;
+            };
+            let frames = curve.key_frames(distance, way);
+            if let Some(track) = curve.track(&frames, self.motion.frame_time_secs(), way) {
+                bake_translation(baked, joint, &track);
+            }
+            keys.translations.push((joint, frames));
         }
-        animation
+        keys
     }
 
     /// A key at every frame.
-    pub(super) fn every_frame(&self, skeleton: Arc<Skeleton>) -> Animation {
-        let mut animation = Animation::new(skeleton);
-        let (secs, way) = (self.frame_time_secs, Interpolation::Linear);
-        for curve in self.rotations.iter().filter(|curve| !curve.is_at_rest) {
-            let frames: Vec<usize> = (0..curve.values.len()).collect();
-            animation = animation.with_rotation(curve.joint, curve.track(&frames, secs, way));
+    pub(super) fn every_frame(&self) -> FrameKeys {
+        let every = || (0..self.motion.frame_count()).filter_map(|frame| u32::try_from(frame).ok());
+        let mut keys = FrameKeys::default();
+        for &joint in self.motion.rotated_joints() {
+            if self.rotation(joint).is_some() {
+                keys.rotations.push((joint, every().collect()));
+            }
         }
-        for curve in self.translations.iter().filter(|curve| !curve.is_at_rest) {
-            let frames: Vec<usize> = (0..curve.values.len()).collect();
-            animation = animation.with_translation(curve.joint, curve.track(&frames, secs, way));
+        for &joint in self.motion.translated_joints() {
+            if self.translation(joint).is_some() {
+                keys.translations.push((joint, every().collect()));
+            }
+        }
+        keys
+    }
+
+    /// The animation of some keys.
+    pub(super) fn animation(&self, keys: &FrameKeys, way: Interpolation) -> Animation {
+        let secs = self.motion.frame_time_secs();
+        let mut animation = Animation::new(Arc::clone(self.motion.skeleton()));
+        for (joint, frames) in &keys.rotations {
+            if let Some(curve) = self.rotation(*joint) {
+                animation = animation.with_rotation(*joint, curve.track(frames, secs, way));
+            }
+        }
+        for (joint, frames) in &keys.translations {
+            if let Some(curve) = self.translation(*joint) {
+                animation = animation.with_translation(*joint, curve.track(frames, secs, way));
+            }
         }
         animation
     }
 }
 
+fn bake_rotation(motion: &mut Motion, joint: JointId, track: &Track<DQuat>) {
+    let secs = motion.frame_time_secs();
+    for frame in 0..motion.frame_count() {
+        let value = track.sample(index_to_f64(frame) * secs);
+        motion.set_rotation(frame, joint, value.as_quat());
+    }
+}
+
+fn bake_translation(motion: &mut Motion, joint: JointId, track: &Track<DVec3>) {
+    let secs = motion.frame_time_secs();
+    for frame in 0..motion.frame_count() {
+        let value = track.sample(index_to_f64(frame) * secs);
+        motion.set_translation(frame, joint, value.as_vec3());
+    }
+}
+
 impl<V: Fitted> Curve<V> {
     /// Signs of orientations are put on the short way first.
-    fn new(joint: JointId, is_at_rest: bool, mut values: Vec<V>) -> Self {
+    fn new(mut values: Vec<V>) -> Self {
         for at in 1..values.len() {
             if values[at].is_far_side(values[at - 1]) {
                 values[at] = values[at].scaled(-1.0);
@@ -180,15 +239,13 @@ impl<V: Fitted> Curve<V> {
             values[at].tangent(velocity)
         });
         Self {
-            joint,
-            is_at_rest,
             slopes: slopes.collect(),
             values,
         }
     }
 
     /// The frames that need a key, from the first to the last; the first alone where that is enough.
-    fn key_frames(&self, tolerance: f64, way: Interpolation) -> Vec<usize> {
+    fn key_frames(&self, tolerance: f64, way: Interpolation) -> Vec<u32> {
         let last = self.values.len() - 1;
         let first_value = self.values[0];
         if self
@@ -198,7 +255,7 @@ impl<V: Fitted> Curve<V> {
         {
             return vec![0];
         }
-        let mut frames = vec![0];
+        let mut frames: Vec<u32> = vec![0];
         let mut from = 0;
         let mut stride = 1;
         while from < last {
@@ -219,7 +276,7 @@ impl<V: Fitted> Curve<V> {
             }
             from += holds;
             stride = (holds / 2).max(1);
-            frames.push(from);
+            frames.extend(u32::try_from(from));
         }
         frames
     }
@@ -239,14 +296,14 @@ impl<V: Fitted> Curve<V> {
         })
     }
 
-    fn track(&self, frames: &[usize], secs: f64, way: Interpolation) -> Option<Track<V>> {
+    fn track(&self, frames: &[u32], secs: f64, way: Interpolation) -> Option<Track<V>> {
         let keys = frames.iter().map(|&frame| Keyframe {
-            time_secs: index_to_f64(frame) * secs,
-            value: self.values[frame].rounded(),
+            time_secs: f64::from(frame) * secs,
+            value: self.values[frame as usize].rounded(),
             interpolation: way,
             tangents: match way {
                 Interpolation::Cubic if frames.len() > 1 => {
-                    Tangents::Aligned(self.slopes[frame].scaled(1.0 / secs).rounded())
+                    Tangents::Aligned(self.slopes[frame as usize].scaled(1.0 / secs).rounded())
                 }
                 _ => Tangents::Auto,
             },

@@ -1,11 +1,10 @@
 //! How far keys are from the motion that they stand for.
 
-use glam::Vec3;
+use std::sync::Arc;
 
-use crate::keyframe::animation::{Animation, BakeConfig};
+use crate::keyframe::animation::{Animation, BakeConfig, index_to_f64};
 use crate::motion::Motion;
 use crate::rotation::angle_between;
-use crate::skeleton::JointId;
 
 /// The largest differences between a motion and the keys that stand for it, over all frames and joints.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -33,60 +32,108 @@ impl KeyError {
             animation.skeleton().joint_count(),
             "an animation of the motion's skeleton"
         );
-        Truth::of(motion).error_of(animation)
+        let mut measure = Measure::of(motion);
+        let mut first = 0;
+        while first < motion.frame_count() {
+            let frame_count = BLOCK.min(motion.frame_count() - first);
+            let baked = animation.bake(&BakeConfig {
+                start_secs: index_to_f64(first) * motion.frame_time_secs(),
+                frame_time_secs: motion.frame_time_secs(),
+                frame_count,
+            });
+            measure.add(motion, first, &baked, 0, frame_count);
+            first += frame_count;
+        }
+        measure.error()
     }
 }
 
-/// A motion and its global positions, computed once.
-pub(super) struct Truth<'a> {
-    motion: &'a Motion,
-    /// Frame after frame.
-    positions: Vec<Vec3>,
+/// How far a motion is from another one of the same joints and frames.
+pub(super) fn between(motion: &Motion, other: &Motion) -> KeyError {
+    let mut measure = Measure::of(motion);
+    let mut first = 0;
+    while first < motion.frame_count() {
+        let count = BLOCK.min(motion.frame_count() - first);
+        measure.add(motion, first, other, first, count);
+        first += count;
+    }
+    measure.error()
+}
+
+/// How many frames are posed at a time: enough for the lanes of forward kinematics, few enough that their global
+/// transforms take little memory.
+const BLOCK: usize = 512;
+
+/// The largest differences so far.
+struct Measure {
+    widest_rad: f64,
+    farthest_squared: f32,
     height: f64,
 }
 
-impl<'a> Truth<'a> {
-    pub(super) fn of(motion: &'a Motion) -> Self {
+impl Measure {
+    fn of(motion: &Motion) -> Self {
         let height = f64::from(motion.skeleton().height());
         Self {
-            motion,
-            positions: positions(motion),
+            widest_rad: 0.0,
+            farthest_squared: 0.0,
             // Joints that all coincide have no height; then the unit is the file's.
             height: if height > 0.0 { height } else { 1.0 },
         }
     }
 
-    pub(super) fn error_of(&self, animation: &Animation) -> KeyError {
-        let motion = self.motion;
-        let baked = animation.bake(&BakeConfig {
-            start_secs: 0.0,
-            frame_time_secs: motion.frame_time_secs(),
-            frame_count: motion.frame_count(),
-        });
-        let distances = self.positions.iter().zip(positions(&baked));
-        let farthest = distances.fold(0.0_f32, |most, (a, b)| most.max(a.distance_squared(b)));
-        let mut widest_rad = 0.0_f64;
+    /// Looks at some frames of a motion, and as many of another one.
+    fn add(
+        &mut self,
+        motion: &Motion,
+        first: usize,
+        other: &Motion,
+        other_first: usize,
+        count: usize,
+    ) {
         for &joint in motion.rotated_joints() {
-            for frame in 0..motion.frame_count() {
-                let [a, b] = [motion, &baked].map(|motion| motion.rotation(frame, joint));
+            for frame in 0..count {
+                let a = motion.rotation(first + frame, joint);
+                let b = other.rotation(other_first + frame, joint);
                 // Files hold rotations to a few digits; only their directions are compared.
                 let [a, b] = [a, b].map(|q| q.as_dquat().normalize());
-                widest_rad = widest_rad.max(angle_between(a, b));
+                self.widest_rad = self.widest_rad.max(angle_between(a, b));
             }
         }
+        let [a, b] = [(motion, first), (other, other_first)]
+            .map(|(motion, first)| part(motion, first, count).to_global());
+        for joint in motion.skeleton().joints() {
+            for frame in 0..count {
+                let apart = a
+                    .position(frame, joint)
+                    .distance_squared(b.position(frame, joint));
+                self.farthest_squared = self.farthest_squared.max(apart);
+            }
+        }
+    }
+
+    fn error(&self) -> KeyError {
         KeyError {
-            angle_deg: widest_rad.to_degrees(),
-            distance_heights: f64::from(farthest).sqrt() / self.height,
+            angle_deg: self.widest_rad.to_degrees(),
+            distance_heights: f64::from(self.farthest_squared).sqrt() / self.height,
         }
     }
 }
 
-fn positions(motion: &Motion) -> Vec<Vec3> {
-    let global = motion.to_global();
-    let joints: Vec<JointId> = motion.skeleton().joints().collect();
-    let frames = 0..motion.frame_count();
-    frames
-        .flat_map(|frame| joints.iter().map(move |&joint| (frame, joint)))
-        .map(|(frame, joint)| global.position(frame, joint))
-        .collect()
+/// Some frames of a motion.
+fn part(motion: &Motion, first: usize, count: usize) -> Motion {
+    let skeleton = Arc::clone(motion.skeleton());
+    let moving = motion.translated_joints().iter().copied();
+    let mut part = Motion::at_rest(skeleton, count, motion.frame_time_secs(), moving);
+    for &joint in motion.rotated_joints() {
+        for frame in 0..count {
+            part.set_rotation(frame, joint, motion.rotation(first + frame, joint));
+        }
+    }
+    for &joint in motion.translated_joints() {
+        for frame in 0..count {
+            part.set_translation(frame, joint, motion.translation(first + frame, joint));
+        }
+    }
+    part
 }

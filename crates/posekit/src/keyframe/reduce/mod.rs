@@ -12,12 +12,11 @@
 //! angle and its global position within the stated distance: that is measured on what is returned, not
 //! inferred. Where no share holds, every frame becomes a key.
 //!
-//! **Cost.** Some tens of evaluations of each joint-frame; `docs/performance.md` has figures.
+//! **Cost.** Some tens of evaluations of each joint-frame; `docs/performance.md` has figures. Memory: a second
+//! motion, the curve of one joint in `f64`, and the keys.
 
 mod fit;
 mod measure;
-
-use std::sync::Arc;
 
 use super::animation::Animation;
 use super::key::Interpolation;
@@ -30,6 +29,10 @@ pub const LEAST_ANGLE_DEG: f64 = 1e-3;
 
 /// The least distance that can be asked for, in skeleton heights, for the same reason.
 pub const LEAST_DISTANCE_HEIGHTS: f64 = 1e-5;
+
+/// The least time between frames, in seconds: shorter ones make slopes per second that are not numbers, of
+/// places as large as `f32` holds.
+const LEAST_FRAME_TIME_SECS: f64 = 1e-200;
 
 /// How far keys may be from the motion that they stand for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,6 +67,18 @@ pub enum ReduceError {
     /// Frames have no times of their own.
     #[error("the motion's frame time is not positive")]
     NoFrameTime,
+    /// Frames follow each other so fast that their rate, and slopes per second, are not numbers.
+    #[error("the motion's frame time of {frame_time_secs:e} s is too short for slopes per second")]
+    FrameTimeTooShort {
+        /// The frame time, in seconds.
+        frame_time_secs: f64,
+    },
+    /// More frames than can be numbered.
+    #[error("the motion has {frames} frames, more than can be reduced")]
+    TooManyFrames {
+        /// How many it has.
+        frames: usize,
+    },
     /// A rotation or translation is not finite.
     #[error("the motion has a number that is not finite at frame {frame}")]
     NotFinite {
@@ -111,16 +126,17 @@ pub fn reduce(motion: &Motion, config: &ReduceConfig) -> Result<Reduction, Reduc
     /// holds and one that does not is halved.
     const ATTEMPTS: [u32; 2] = [8, 4];
     check(motion, config)?;
-    let truth = measure::Truth::of(motion);
     let curves = fit::Curves::of(motion);
     let limit = KeyError {
         angle_deg: config.angle_deg,
         distance_heights: config.distance_heights,
     };
-    let attempt = |share: f64| {
-        let animation = curves.fitted(motion.skeleton(), config, share);
-        let error = truth.error_of(&animation);
-        (error.is_within(&limit)).then_some(Reduction { animation, error })
+    let way = config.interpolation;
+    let mut baked = motion.clone();
+    let mut attempt = |share: f64| {
+        let keys = curves.fitted(config, share, &mut baked);
+        let error = measure::between(motion, &baked);
+        error.is_within(&limit).then_some((keys, error))
     };
     let (mut share, mut best) = (1.0, attempt(1.0));
     for _ in 0..ATTEMPTS[0] {
@@ -131,8 +147,9 @@ pub fn reduce(motion: &Motion, config: &ReduceConfig) -> Result<Reduction, Reduc
         best = attempt(share);
     }
     let Some(mut best) = best else {
-        let animation = curves.every_frame(Arc::clone(motion.skeleton()));
-        let error = truth.error_of(&animation);
+        drop(baked);
+        let animation = curves.animation(&curves.every_frame(), Interpolation::Linear);
+        let error = KeyError::between(motion, &animation);
         return Ok(Reduction { animation, error });
     };
     let (mut holds, mut fails) = (share, 2.0 * share);
@@ -142,14 +159,18 @@ pub fn reduce(motion: &Motion, config: &ReduceConfig) -> Result<Reduction, Reduc
             Some(better) => {
                 holds = middle;
                 // A larger share may happen to need more keys.
-                if better.animation.key_count() <= best.animation.key_count() {
+                if better.0.count() <= best.0.count() {
                     best = better;
                 }
             }
             None => fails = middle,
         }
     }
-    Ok(best)
+    drop(baked);
+    Ok(Reduction {
+        animation: curves.animation(&best.0, way),
+        error: best.1,
+    })
 }
 
 fn check(motion: &Motion, config: &ReduceConfig) -> Result<(), ReduceError> {
@@ -158,6 +179,14 @@ fn check(motion: &Motion, config: &ReduceConfig) -> Result<(), ReduceError> {
     }
     if motion.frame_time_secs() <= 0.0 {
         return Err(ReduceError::NoFrameTime);
+    }
+    let frame_time_secs = motion.frame_time_secs();
+    if frame_time_secs < LEAST_FRAME_TIME_SECS {
+        return Err(ReduceError::FrameTimeTooShort { frame_time_secs });
+    }
+    if u32::try_from(motion.frame_count()).is_err() {
+        let frames = motion.frame_count();
+        return Err(ReduceError::TooManyFrames { frames });
     }
     let ReduceConfig {
         angle_deg,

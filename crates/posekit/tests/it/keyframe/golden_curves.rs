@@ -8,7 +8,7 @@ use serde::de::DeserializeOwned;
 
 use super::{quats, track};
 
-fn golden<T: DeserializeOwned>(section: &str) -> Vec<T> {
+pub(super) fn golden<T: DeserializeOwned>(section: &str) -> Vec<T> {
     let text = include_str!("../../golden/keyframe.json");
     let mut all: serde_json::Value = serde_json::from_str(text).expect("the golden file is JSON");
     let cases: Vec<T> =

@@ -3,6 +3,7 @@
 
 mod animations;
 mod editing;
+mod euler;
 mod golden_curves;
 mod laws;
 mod reduction;

@@ -76,7 +76,8 @@ fn head(ui: &mut Ui, panel: &mut GraphPanel) {
             })
             .response
             .on_hover_text(
-                "The order of the axes of angles. It changes what is drawn, not the keys.",
+                "The order in which the angles of quaternions are shown. It changes what is drawn, not the \
+                 keys. Euler curves have an order of their own: Rotation mode (right button) changes it.",
             );
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let says = "View all (Home); what is selected: the full stop";

@@ -47,6 +47,7 @@ fn show_at(
                 ("Curve  (T)", Menu::Interpolation),
                 ("Tangents  (V)", Menu::Tangents),
                 ("Beyond  (Shift+E)", Menu::Extrapolation),
+                ("Rotation mode", Menu::Mode),
             ] {
                 ui.menu_button(name, |ui| {
                     if menu::show(ui, menu, session) {

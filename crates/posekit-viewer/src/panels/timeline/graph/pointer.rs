@@ -36,8 +36,8 @@ pub(super) enum Task {
     Hold {
         /// The time that goes from frame to frame.
         reference_secs: f64,
-        /// From the pointer's value to the handle's.
-        handle_offset: f64,
+        /// From the pointer's seconds and value to the handle's.
+        handle_offset: [f64; 2],
         /// Whether it follows without a button, until one is pressed.
         is_modal: bool,
     },
@@ -69,7 +69,7 @@ impl Pointing {
         Self {
             task: Task::Hold {
                 reference_secs,
-                handle_offset: 0.0,
+                handle_offset: [0.0; 2],
                 is_modal: true,
             },
             from,
@@ -229,7 +229,7 @@ fn begin(
         from: origin,
         lock: None,
     };
-    let held = |reference_secs: f64, handle_offset: f64| Pointing {
+    let held = |reference_secs: f64, handle_offset: [f64; 2]| Pointing {
         task: Task::Hold {
             reference_secs,
             handle_offset,
@@ -239,12 +239,10 @@ fn begin(
         lock: None,
     };
     if let Some(handle) = handle_at(&panel.graph, plane, origin) {
-        let value = panel
-            .graph
-            .handle_place(handle)
-            .map_or(0.0, |place| place[1]);
+        let [secs, value] = panel.graph.handle_place(handle).unwrap_or_default();
         if panel.graph.take_handle(session, handle) {
-            return held(0.0, value - plane.value(origin.y));
+            let offset = [secs - plane.secs(origin.x), value - plane.value(origin.y)];
+            return held(0.0, offset);
         }
     }
     let Some(dot) = dot_at(&panel.graph, plane, origin) else {
@@ -259,7 +257,7 @@ fn begin(
     }
     let secs = panel.graph.place(dot).map_or(0.0, |place| place[0]);
     if panel.graph.take_dots(session) {
-        return held(secs, 0.0);
+        return held(secs, [0.0; 2]);
     }
     boxed
 }
@@ -314,8 +312,15 @@ fn apply(
             panel.graph.scale_held(session, factors);
         }
         HoldKind::Handle(_) => {
-            let value = plane.value(pointer.y) + handle_offset;
-            panel.graph.drag_held_handle(session, value);
+            let from = [plane.secs(pointing.from.x), plane.value(pointing.from.y)];
+            let mut to = [plane.secs(pointer.x), plane.value(pointer.y)];
+            match lock {
+                Some(Lock::Time) => to[1] = from[1],
+                Some(Lock::Value) => to[0] = from[0],
+                None => {}
+            }
+            let place = [to[0] + handle_offset[0], to[1] + handle_offset[1]];
+            panel.graph.drag_held_handle(session, place);
         }
     }
 }

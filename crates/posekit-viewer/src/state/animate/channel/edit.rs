@@ -5,8 +5,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use posekit::keyframe::edit::{EditError, SAME_TIME_SECS, key_on_curve, replace_keys};
-use posekit::keyframe::{Keyframe, Tangents, Track};
+use posekit::keyframe::edit::{self, EditError, SAME_TIME_SECS, replace_keys};
+use posekit::keyframe::{Handle, HandlePair, Keyframe, Tangents, Track};
+use posekit::rotation::EulerOrder;
 
 use super::parts::{InParts, Parts};
 use super::{Channels, Side, with_track};
@@ -65,6 +66,10 @@ impl TangentKind {
             Tangents::Flat => Self::Flat,
             Tangents::Aligned(_) => Self::Aligned,
             Tangents::Broken { .. } => Self::Broken,
+            Tangents::Handles { pair, .. } => match pair {
+                HandlePair::Aligned => Self::Aligned,
+                HandlePair::Broken => Self::Broken,
+            },
             _ => Self::Auto,
         }
     }
@@ -90,6 +95,16 @@ pub struct Edited {
     pub keys: BTreeMap<usize, usize>,
 }
 
+impl Edited {
+    /// What was done to the angles of Euler curves is Euler curves again.
+    fn of_kind(mut self, before: &TrackValue) -> Self {
+        if let (TrackValue::Euler(euler), TrackValue::Vector(angles)) = (before, &self.track) {
+            self.track = TrackValue::Euler(euler.with_angles_deg(angles.clone()));
+        }
+        self
+    }
+}
+
 /// A key as a graph has it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct GraphKey {
@@ -97,6 +112,8 @@ struct GraphKey {
     parts: Parts,
     /// On both sides; `None` next to gimbal lock.
     slopes: Option<[Parts; 2]>,
+    /// Factors that handles which are free in time are stretched by, in time and in value.
+    stretch: (f64, Parts),
 }
 
 /// Moves dots: their keys in time, and their channels' values.
@@ -141,6 +158,7 @@ pub fn scale_dots(
             key.parts[channel] = pivot[1] + (key.parts[channel] - pivot[1]) * value;
             factors[channel] = value;
         }
+        key.stretch = (time, factors);
         if let Some(slopes) = &mut key.slopes {
             for side in slopes {
                 *side = std::array::from_fn(|part| side[part] * factors[part] / time);
@@ -172,6 +190,15 @@ pub fn drag_handle(
             let index = side.index();
             key.value.derivative(slopes[index], parts, channels.order, now[index])
         };
+        if let Tangents::Handles { pair, .. } = key.tangents {
+            let reach = channels
+                .handle_parts(dot.key, side)
+                .map_or(0.0, |[secs, _]| secs[dot.channel]);
+            let to = [reach, slope * side.sign() * reach];
+            key.tangents = handles_with(channels, track, (dot, side, pair), to);
+            return put(track, BTreeMap::from([(dot.key, key)]))
+                .map(|edited| edited.of_kind(channels.track()));
+        }
         key.tangents = match (key.tangents, side) {
             (Tangents::Broken { outgoing, .. }, Side::Incoming) => Tangents::Broken {
                 incoming: on(side),
@@ -185,6 +212,145 @@ pub fn drag_handle(
         };
         put(track, BTreeMap::from([(dot.key, key)]))
     })
+    .map(|edited| edited.of_kind(channels.track()))
+}
+
+/// Brings a channel's handle on one side of a key to a place, seconds and value. It stays on its side of the key
+/// and does not pass the neighbouring one, so that time never runs back. The handle of an aligned key on the
+/// other side turns along and keeps its length in time. A handle that only rises or falls stays a third of the
+/// way along, as those of quaternions always do.
+///
+/// # Errors
+/// [`EditError::Track`] when a number is not finite.
+pub fn drag_handle_to(
+    channels: &Channels,
+    dot: Dot,
+    side: Side,
+    [secs, value]: [f64; 2],
+) -> Result<Edited, EditError> {
+    /// The two handles of an aligned key are at least this share of their segments long: straight up there is no
+    /// line for the other one to lie on.
+    const LEAST_SHARE: f64 = 0.01;
+    /// A handle moved by less than this share of its segment stays where it is in time.
+    const SAME_SHARE: f64 = 1e-6;
+    let (Some(whole), Some([reaches, _])) = (
+        channels.cubic_secs(dot.key, side),
+        channels.handle_parts(dot.key, side),
+    ) else {
+        return change(channels, &BTreeMap::new(), |_, _| {});
+    };
+    let rise = value - channels.at_key(dot.key)[dot.channel];
+    let kind = channels.tangent_kind(dot.key);
+    let least = if kind == TangentKind::Broken {
+        0.0
+    } else {
+        LEAST_SHARE * whole
+    };
+    let wanted = (side.sign() * (secs - channels.times_secs()[dot.key])).clamp(least, whole);
+    let stays = (wanted - reaches[dot.channel]).abs() <= SAME_SHARE * whole;
+    let is_free = with_track!(channels.track(), track => {
+        matches!(track.keys()[dot.key].tangents, Tangents::Handles { .. })
+    });
+    if !channels.are_curves() || (stays && !is_free) {
+        let reach = side.sign() * reaches[dot.channel];
+        return drag_handle(channels, dot, side, rise / reach);
+    }
+    let pair = match kind {
+        TangentKind::Broken => HandlePair::Broken,
+        _ => HandlePair::Aligned,
+    };
+    with_track!(channels.track(), track => {
+        let mut key = track.keys()[dot.key];
+        key.tangents = handles_with(channels, track, (dot, side, pair), [wanted, rise]);
+        put(track, BTreeMap::from([(dot.key, key)]))
+    })
+    .map(|edited| edited.of_kind(channels.track()))
+}
+
+/// All handles of a key as they are, but for that of one channel on one side; the one of an aligned pair on the
+/// other side lies on its line.
+fn handles_with<V: InParts>(
+    channels: &Channels,
+    track: &Track<V>,
+    (dot, side, pair): (Dot, Side, HandlePair),
+    [secs, rise]: [f64; 2],
+) -> Tangents<V> {
+    let key = &track.keys()[dot.key];
+    let own = match key.tangents {
+        Tangents::Handles {
+            incoming, outgoing, ..
+        } => Some([incoming, outgoing]),
+        _ => None,
+    };
+    let slopes = track.tangents_at(dot.key);
+    let sides = Side::BOTH.map(|here| {
+        let index = here.index();
+        // Where no cubic segment shows it, a handle is what it was, or as long as the other one.
+        let there = track.handles_at(dot.key)[index].or(own.map(|own| own[index]));
+        let mut handle = there.unwrap_or_else(|| Handle {
+            secs: V::in_parts(slopes[index], |_, _| secs),
+            value: V::in_parts(slopes[index], |_, slope| slope * here.sign() * secs),
+        });
+        if here == side {
+            handle.secs = V::in_parts(
+                handle.secs,
+                |part, was| {
+                    if part == dot.channel { secs } else { was }
+                },
+            );
+            handle.value = V::in_parts(
+                handle.value,
+                |part, was| {
+                    if part == dot.channel { rise } else { was }
+                },
+            );
+        } else if pair == HandlePair::Aligned && secs > 0.0 {
+            let lengths = handle.secs.parts(channels.order, [0.0; 3]);
+            handle.value = V::in_parts(handle.value, |part, was| {
+                if part == dot.channel {
+                    -rise / secs * lengths[part]
+                } else {
+                    was
+                }
+            });
+        }
+        handle
+    });
+    let [incoming, outgoing] = sides;
+    Tangents::Handles {
+        incoming,
+        outgoing,
+        pair,
+    }
+}
+
+/// The two handles of a key on one line in every channel: the mean of their slopes, each as long in time as it
+/// was.
+fn aligned<V: InParts>(incoming: Handle<V>, outgoing: Handle<V>) -> [Handle<V>; 2] {
+    /// What a handle straight up counts as, in seconds.
+    const LEAST_SECS: f64 = 1e-6;
+    let order = EulerOrder::XYZ;
+    let parts = |value: V| value.parts(order, [0.0; 3]);
+    let (secs_in, secs_out) = (parts(incoming.secs), parts(outgoing.secs));
+    let (rise_in, rise_out) = (parts(incoming.value), parts(outgoing.value));
+    let slopes: Parts = std::array::from_fn(|part| {
+        let slope_in = -rise_in[part] / secs_in[part].max(LEAST_SECS);
+        let slope_out = rise_out[part] / secs_out[part].max(LEAST_SECS);
+        // One that is not there says nothing.
+        match (secs_in[part] > 0.0, secs_out[part] > 0.0) {
+            (true, false) => slope_in,
+            (false, true) => slope_out,
+            _ => 0.5 * (slope_in + slope_out),
+        }
+    });
+    let turned = |handle: Handle<V>, sign: f64, secs: Parts| Handle {
+        value: V::in_parts(handle.value, |part, _| sign * slopes[part] * secs[part]),
+        ..handle
+    };
+    [
+        turned(incoming, -1.0, secs_in),
+        turned(outgoing, 1.0, secs_out),
+    ]
 }
 
 /// Chooses the tangents of keys. Those set by hand begin as what they were; sides that become aligned meet
@@ -193,31 +359,54 @@ pub fn drag_handle(
 /// # Errors
 /// None that a valid track can give.
 pub fn set_tangents(
-    track: &TrackValue,
+    value: &TrackValue,
     keys: &BTreeSet<usize>,
     kind: TangentKind,
 ) -> Result<Edited, EditError> {
-    with_track!(track, track => change_keys(track, keys, |index, key| {
+    with_track!(value, track => change_keys(track, keys, |index, key| {
         let [incoming, outgoing] = track.tangents_at(index);
         key.tangents = match kind {
             TangentKind::Auto => Tangents::Auto,
             TangentKind::Smooth => Tangents::Smooth,
             TangentKind::Flat => Tangents::Flat,
-            TangentKind::Aligned => Tangents::Aligned(incoming.mean(outgoing)),
-            TangentKind::Broken => Tangents::Broken { incoming, outgoing },
+            TangentKind::Aligned => match key.tangents {
+                Tangents::Handles {
+                    incoming, outgoing, ..
+                } => {
+                    let [incoming, outgoing] = aligned(incoming, outgoing);
+                    Tangents::Handles {
+                        incoming,
+                        outgoing,
+                        pair: HandlePair::Aligned,
+                    }
+                }
+                _ => Tangents::Aligned(incoming.mean(outgoing)),
+            },
+            TangentKind::Broken => match key.tangents {
+                Tangents::Handles {
+                    incoming, outgoing, ..
+                } => Tangents::Handles {
+                    incoming,
+                    outgoing,
+                    pair: HandlePair::Broken,
+                },
+                _ => Tangents::Broken { incoming, outgoing },
+            },
         };
     }))
+    .map(|edited| edited.of_kind(value))
 }
 
 /// Puts a key onto the curve, which moves as little as can be.
 ///
 /// # Errors
 /// [`EditError::Track`] when the time is not finite.
-pub fn insert_on_curve(track: &TrackValue, time_secs: f64) -> Result<Edited, EditError> {
-    with_track!(track, track => {
-        let with_key = replace_keys(track, &[], vec![key_on_curve(track, time_secs)])?;
+pub fn insert_on_curve(value: &TrackValue, time_secs: f64) -> Result<Edited, EditError> {
+    let edited: Result<Edited, EditError> = with_track!(value, track => {
+        let with_key = edit::insert_on_curve(track, time_secs)?;
         Ok(found_again(track, with_key, &BTreeMap::new()))
-    })
+    });
+    edited.map(|edited| edited.of_kind(value))
 }
 
 /// The channels of each key's dots.
@@ -242,6 +431,7 @@ fn change(
                 time_secs: track.times_secs()[index],
                 parts: channels.at_key(index),
                 slopes: channels.slopes(index),
+                stretch: (1.0, [1.0; 3]),
             };
             let mut after = before;
             change(chosen, &mut after);
@@ -249,6 +439,7 @@ fn change(
         }
         put(track, changed)
     })
+    .map(|edited: Edited| edited.of_kind(channels.track()))
 }
 
 /// The key that a graph's key stands for. What did not change is kept to the last digit.
@@ -287,6 +478,22 @@ fn key_of<V: InParts>(
                 incoming: tangent(incoming, Side::Incoming),
                 outgoing: tangent(outgoing, Side::Outgoing),
             },
+            Tangents::Handles {
+                incoming,
+                outgoing,
+                pair,
+            } => {
+                let (time, values) = after.stretch;
+                let stretched = |handle: Handle<V>| Handle {
+                    secs: V::in_parts(handle.secs, |_, secs| secs * time),
+                    value: V::in_parts(handle.value, |part, rise| rise * values[part]),
+                };
+                Tangents::Handles {
+                    incoming: stretched(incoming),
+                    outgoing: stretched(outgoing),
+                    pair,
+                }
+            }
             by_neighbours => by_neighbours,
         },
         ..key

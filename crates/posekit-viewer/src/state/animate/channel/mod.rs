@@ -5,9 +5,9 @@
 //! has three angles in degrees, in a chosen order of axes, that go on from key to key without jumping back
 //! after half a turn. Slopes are the channel's unit per second.
 //!
-//! An orientation is one value and not three: between keys it takes the short way whatever its angles are, so
-//! the curve of one angle may bend when another's key is moved, and a key more than half a turn from the one
-//! before it is reached the other way round.
+//! Euler curves are what they look like. An orientation of quaternions is one value and not three: between keys
+//! it takes the short way whatever its angles are, so the curve of one angle may bend when another's key is
+//! moved, and a key more than half a turn from the one before it is reached the other way round.
 
 mod edit;
 mod euler;
@@ -18,13 +18,13 @@ mod tests;
 mod walk;
 
 use glam::{DQuat, DVec3};
-use posekit::keyframe::{Interpolation, Track};
+use posekit::keyframe::{Interpolation, Track, lost_turn};
 use posekit::rotation::{Axis, EulerOrder};
 
 use super::{LaneTrack, TrackValue};
 pub use edit::{
-    Dot, Edited, Scaling, TangentKind, drag_handle, insert_on_curve, move_dots, scale_dots,
-    set_tangents,
+    Dot, Edited, Scaling, TangentKind, drag_handle, drag_handle_to, insert_on_curve, move_dots,
+    scale_dots, set_tangents,
 };
 use parts::{InParts, Parts};
 pub use sampled::Sampled;
@@ -80,13 +80,17 @@ impl From<Track<DQuat>> for TrackValue {
     }
 }
 
-/// Does the same for a track of any kind.
+/// Does the same for a track of any kind; Euler curves count as vectors.
 macro_rules! with_track {
     ($value:expr, $track:ident => $body:expr) => {
         match $value {
             $crate::state::animate::TrackValue::Number($track) => $body,
             $crate::state::animate::TrackValue::Vector($track) => $body,
             $crate::state::animate::TrackValue::Orientation($track) => $body,
+            $crate::state::animate::TrackValue::Euler(euler) => {
+                let $track = euler.angles_deg();
+                $body
+            }
         }
     };
 }
@@ -109,7 +113,11 @@ impl Channels {
         let order = euler::complete(order);
         let walk = match &track {
             TrackValue::Orientation(track) => Some(Walk::along(track, order, near_deg)),
-            TrackValue::Number(_) | TrackValue::Vector(_) => None,
+            TrackValue::Number(_) | TrackValue::Vector(_) | TrackValue::Euler(_) => None,
+        };
+        let order = match &track {
+            TrackValue::Euler(track) => track.order(),
+            _ => order,
         };
         Self { track, order, walk }
     }
@@ -117,7 +125,8 @@ impl Channels {
     /// Whether these are the channels of a track in an order of angles.
     #[must_use]
     pub fn is_of(&self, track: LaneTrack<'_>, order: EulerOrder) -> bool {
-        self.order == euler::complete(order) && self.track.as_track() == track
+        let is_own = matches!(self.track, TrackValue::Euler(_));
+        (is_own || self.order == euler::complete(order)) && self.track.as_track() == track
     }
 
     /// The track.
@@ -133,6 +142,7 @@ impl Channels {
             TrackValue::Number(_) => f64::COUNT,
             TrackValue::Vector(_) => DVec3::COUNT,
             TrackValue::Orientation(_) => DQuat::COUNT,
+            TrackValue::Euler(_) => DVec3::COUNT,
         }
     }
 
@@ -142,20 +152,49 @@ impl Channels {
         match self.track {
             TrackValue::Number(_) => None,
             TrackValue::Vector(_) => Axis::ALL.get(channel).copied(),
-            TrackValue::Orientation(_) => self.order.axes().get(channel).copied(),
+            TrackValue::Orientation(_) | TrackValue::Euler(_) => {
+                self.order.axes().get(channel).copied()
+            }
         }
+    }
+
+    /// Whether the channels are curves of their own, and not what an orientation happens to be in angles.
+    #[must_use]
+    pub fn are_curves(&self) -> bool {
+        !matches!(self.track, TrackValue::Orientation(_))
     }
 
     /// Whether the channels are angles in degrees.
     #[must_use]
     pub fn are_angles(&self) -> bool {
-        self.walk.is_some()
+        matches!(
+            self.track,
+            TrackValue::Orientation(_) | TrackValue::Euler(_)
+        )
     }
 
     /// The times of the keys in seconds, in rising order.
     #[must_use]
     pub fn times_secs(&self) -> &[f64] {
         with_track!(&self.track, track => track.times_secs())
+    }
+
+    /// Whether a key of quaternions, one of whose angles is brought to a value, will be reached another way than
+    /// its angles say: from the key before it, or from it to the key after.
+    #[must_use]
+    pub fn loses_turn(&self, dot: Dot, value: f64) -> bool {
+        let count = self.times_secs().len();
+        if self.are_curves() || dot.key >= count {
+            return false;
+        }
+        let mut asked = DVec3::from_array(self.at_key(dot.key));
+        asked[dot.channel] = value;
+        let neighbours = [dot.key.checked_sub(1), Some(dot.key + 1)];
+        let mut neighbours = neighbours.into_iter().flatten().filter(|key| *key < count);
+        neighbours.any(|key| {
+            let there = DVec3::from_array(self.at_key(key));
+            lost_turn(self.order, there, asked).is_some()
+        })
     }
 
     /// How the segment that starts at a key is filled.
@@ -187,6 +226,7 @@ impl Channels {
             (TrackValue::Number(track), None) => self.parts(track.keys()[key].value),
             (TrackValue::Vector(track), None) => self.parts(track.keys()[key].value),
             (TrackValue::Orientation(track), None) => self.parts(track.keys()[key].value),
+            (TrackValue::Euler(track), None) => self.parts(track.angles_deg().keys()[key].value),
         }
     }
 
@@ -198,6 +238,7 @@ impl Channels {
             (TrackValue::Orientation(track), None) => self.parts(track.sample(time_secs)),
             (TrackValue::Number(track), _) => self.parts(track.sample(time_secs)),
             (TrackValue::Vector(track), _) => self.parts(track.sample(time_secs)),
+            (TrackValue::Euler(track), _) => self.parts(track.angles_deg().sample(time_secs)),
         }
     }
 
@@ -236,31 +277,43 @@ impl Channels {
         (self.interpolation(from) == Interpolation::Cubic).then_some(secs)
     }
 
-    /// Where a key's handle lies, seconds and value: a third of the way to the neighbour in time, on the
-    /// slope. `None` where there is no cubic segment, and next to gimbal lock.
+    /// Where a key's handle lies, seconds and value, as the curve uses it. That of quaternions is a third of the
+    /// way to the neighbour in time, on the slope; others may lie anywhere on their side of the key, up to the
+    /// neighbour. `None` where there is no cubic segment, and of quaternions next to gimbal lock.
     ///
     /// # Panics
     /// If there is no such key.
     #[must_use]
     pub fn handle(&self, key: usize, channel: usize, side: Side) -> Option<[f64; 2]> {
-        let reach = side.sign() * self.handle_secs(key, side)?;
-        let slope = self.slopes(key)?[side.index()][channel];
+        let [secs, rise] = self.handle_parts(key, side)?;
         Some([
-            self.times_secs()[key] + reach,
-            self.at_key(key)[channel] + slope * reach,
+            self.times_secs()[key] + side.sign() * secs[channel],
+            self.at_key(key)[channel] + rise[channel],
         ])
     }
 
-    /// How far in time a key's handle reaches.
-    fn handle_secs(&self, key: usize, side: Side) -> Option<f64> {
-        Some(self.cubic_secs(key, side)? / 3.0)
-    }
-
-    /// The slope that brings a key's handle to a value.
-    #[must_use]
-    pub fn slope_to(&self, key: usize, channel: usize, side: Side, value: f64) -> Option<f64> {
-        let reach = side.sign() * self.handle_secs(key, side)?;
-        Some((value - self.at_key(key)[channel]) / reach)
+    /// How far the channels' handles on a side of a key reach in time, and how far they rise.
+    fn handle_parts(&self, key: usize, side: Side) -> Option<[Parts; 2]> {
+        let index = side.index();
+        match &self.track {
+            TrackValue::Number(track) => {
+                let handle = track.handles_at(key)[index]?;
+                Some([self.parts(handle.secs), self.parts(handle.value)])
+            }
+            TrackValue::Vector(track) => {
+                let handle = track.handles_at(key)[index]?;
+                Some([self.parts(handle.secs), self.parts(handle.value)])
+            }
+            TrackValue::Euler(track) => {
+                let handle = track.angles_deg().handles_at(key)[index]?;
+                Some([self.parts(handle.secs), self.parts(handle.value)])
+            }
+            TrackValue::Orientation(_) => {
+                let secs = self.cubic_secs(key, side)? / 3.0;
+                let slopes = self.slopes(key)?[index];
+                Some([[secs; 3], slopes.map(|slope| slope * side.sign() * secs)])
+            }
+        }
     }
 
     /// The channels over a span of seconds, for drawing: about every `step_secs`, at every key, and on

@@ -33,6 +33,9 @@ pub(super) trait InParts: KeyValue {
 
     /// Half way between two derivatives.
     fn mean(self, other: Self) -> Self;
+
+    /// Scalar by scalar, by its place among them. Not for orientations, whose scalars are not their own.
+    fn in_parts(value: Self, change: impl Fn(usize, f64) -> f64) -> Self;
 }
 
 impl InParts for f64 {
@@ -40,6 +43,10 @@ impl InParts for f64 {
 
     fn parts(self, _order: EulerOrder, _near: Parts) -> Parts {
         [self, 0.0, 0.0]
+    }
+
+    fn in_parts(value: Self, change: impl Fn(usize, f64) -> f64) -> Self {
+        change(0, value)
     }
 
     fn of_parts(parts: Parts, _order: EulerOrder) -> Self {
@@ -70,6 +77,10 @@ impl InParts for DVec3 {
         self.to_array()
     }
 
+    fn in_parts(value: Self, change: impl Fn(usize, f64) -> f64) -> Self {
+        Self::from_array(std::array::from_fn(|part| change(part, value[part])))
+    }
+
     fn of_parts(parts: Parts, _order: EulerOrder) -> Self {
         Self::from_array(parts)
     }
@@ -93,6 +104,10 @@ impl InParts for DVec3 {
 
 impl InParts for DQuat {
     const COUNT: usize = 3;
+
+    fn in_parts(value: Self, _change: impl Fn(usize, f64) -> f64) -> Self {
+        value
+    }
 
     fn parts(self, order: EulerOrder, near: Parts) -> Parts {
         euler::angles_near_deg(order, self, near)

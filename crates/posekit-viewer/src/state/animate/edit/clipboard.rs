@@ -3,7 +3,11 @@
 use std::collections::BTreeSet;
 
 use posekit::keyframe::edit::{PasteValues, copy_keys, mirror_animation, mirror_axis, paste_keys};
-use posekit::keyframe::{Animation, Extrapolation, Keyframe, Track};
+use posekit::keyframe::{
+    Animation, ConvertConfig, EulerTrack, Extrapolation, Keyframe, RotationTrack, Track, to_euler,
+    to_quaternion,
+};
+use posekit::rotation::EulerOrder;
 
 use glam::{DQuat, DVec3};
 
@@ -17,6 +21,7 @@ enum Copied {
     Number(Vec<Keyframe<f64>>),
     Vector(Vec<Keyframe<DVec3>>),
     Orientation(Vec<Keyframe<DQuat>>),
+    Euler(EulerOrder, Vec<Keyframe<DVec3>>),
 }
 
 /// Keys that were copied. Joints are known by name, so that they can be pasted on another skeleton.
@@ -42,6 +47,10 @@ impl Clipboard {
                     LaneTrack::Orientation(track) => {
                         Copied::Orientation(copy_keys(track, &indices, origin))
                     }
+                    LaneTrack::Euler(track) => {
+                        let keys = copy_keys(track.angles_deg(), &indices, origin);
+                        Copied::Euler(track.order(), keys)
+                    }
                 };
                 let name = lane.owner().name(authored.scene(), authored.skeleton());
                 Some((lane, name, copied))
@@ -58,6 +67,7 @@ impl Clipboard {
             Copied::Number(keys) => keys.len(),
             Copied::Vector(keys) => keys.len(),
             Copied::Orientation(keys) => keys.len(),
+            Copied::Euler(_, keys) => keys.len(),
         };
         self.lanes.iter().map(count).sum()
     }
@@ -116,12 +126,43 @@ impl Copied {
             Self::Number(keys) => Box::new(keys.iter().map(|key| key.time_secs)),
             Self::Vector(keys) => Box::new(keys.iter().map(|key| key.time_secs)),
             Self::Orientation(keys) => Box::new(keys.iter().map(|key| key.time_secs)),
+            Self::Euler(_, keys) => Box::new(keys.iter().map(|key| key.time_secs)),
+        }
+    }
+
+    /// The same in the mode of a track that they are pasted into, with keys added where that needs some.
+    /// Angles begin near those that the track has there.
+    fn in_mode_of(self, track: Option<LaneTrack<'_>>, at_secs: f64) -> Option<Self> {
+        let config = ConvertConfig::default();
+        match (self, track) {
+            (Self::Orientation(keys), Some(LaneTrack::Euler(euler))) => {
+                let first = keys.first()?.time_secs;
+                let near = euler.angles_deg().sample(at_secs + first);
+                let track = Track::new(keys, Extrapolation::Hold).ok()?;
+                let converted = to_euler(&track, euler.order(), near, &config).ok()?;
+                let keys = converted.track.angles_deg().keys().to_vec();
+                Some(Self::Euler(euler.order(), keys))
+            }
+            (Self::Euler(order, keys), Some(LaneTrack::Orientation(_))) => {
+                let angles = Track::new(keys, Extrapolation::Hold).ok()?;
+                let euler = EulerTrack::new(order, angles).ok()?;
+                let converted = to_quaternion(&euler, &config).ok()?;
+                Some(Self::Orientation(converted.track.keys().to_vec()))
+            }
+            (Self::Euler(order, keys), Some(LaneTrack::Euler(there))) if order != there.order() => {
+                let angles = Track::new(keys, Extrapolation::Hold).ok()?;
+                let euler = EulerTrack::new(order, angles).ok()?;
+                let quaternions = to_quaternion(&euler, &config).ok()?.track;
+                Self::Orientation(quaternions.keys().to_vec()).in_mode_of(track, at_secs)
+            }
+            (same, _) => Some(same),
         }
     }
 }
 
 /// A lane's track with keys pasted into it; of a lane that is not keyed, a track of them alone.
 fn pasted(track: Option<LaneTrack<'_>>, copied: &Copied, at_secs: f64) -> Option<TrackValue> {
+    let copied = &copied.clone().in_mode_of(track, at_secs)?;
     macro_rules! paste {
         ($kind:ident, $keys:expr) => {{
             let track = match track {
@@ -144,6 +185,23 @@ fn pasted(track: Option<LaneTrack<'_>>, copied: &Copied, at_secs: f64) -> Option
         Copied::Number(keys) => paste!(Number, keys),
         Copied::Vector(keys) => paste!(Vector, keys),
         Copied::Orientation(keys) => paste!(Orientation, keys),
+        Copied::Euler(order, keys) => {
+            let mut keys = keys.clone();
+            let angles = match track {
+                Some(LaneTrack::Euler(track)) => {
+                    paste_keys(track.angles_deg(), &keys, at_secs, PasteValues::AsCopied).ok()
+                }
+                Some(_) => None,
+                None => {
+                    for key in &mut keys {
+                        key.time_secs += at_secs;
+                    }
+                    Track::new(keys, Extrapolation::Hold).ok()
+                }
+            };
+            let euler = EulerTrack::new(*order, angles?).ok()?;
+            Some(TrackValue::Euler(euler))
+        }
     }
 }
 
@@ -159,6 +217,11 @@ fn mirrored_lanes(authored: &Authored, lanes: Vec<(Lane, Copied)>) -> Option<Vec
                 let track = Track::new(keys, Extrapolation::Hold).ok()?;
                 animation = animation.with_rotation(joint, Some(track));
             }
+            (Lane::Rotation(joint), Copied::Euler(order, keys)) => {
+                let angles = Track::new(keys, Extrapolation::Hold).ok()?;
+                let track = EulerTrack::new(order, angles).ok()?;
+                animation = animation.with_rotation(joint, Some(track));
+            }
             (Lane::Translation(joint), Copied::Vector(keys)) => {
                 let track = Track::new(keys, Extrapolation::Hold).ok()?;
                 animation = animation.with_translation(joint, Some(track));
@@ -168,7 +231,12 @@ fn mirrored_lanes(authored: &Authored, lanes: Vec<(Lane, Copied)>) -> Option<Vec
     }
     let image = mirror_animation(&animation, mirror_axis(skeleton), 0.0).ok()?;
     let turned = image.rotations().map(|(joint, track)| {
-        let keys = Copied::Orientation(track.keys().to_vec());
+        let keys = match track {
+            RotationTrack::Quaternion(track) => Copied::Orientation(track.keys().to_vec()),
+            RotationTrack::Euler(track) => {
+                Copied::Euler(track.order(), track.angles_deg().keys().to_vec())
+            }
+        };
         (Lane::Rotation(joint), keys)
     });
     let moved = image.translations().map(|(joint, track)| {
@@ -195,7 +263,12 @@ pub fn mirrored(authored: &Authored, selection: &BTreeSet<KeyId>) -> Option<Edit
     let mut edit = Edit::default();
     for (lane, copied) in lanes {
         // Key by key: what lies between the images and is not selected stays.
+        let copied = copied.in_mode_of(authored.track(lane), origin)?;
         let value = match (copied, authored.track(lane)) {
+            (Copied::Euler(_, keys), Some(LaneTrack::Euler(track))) => {
+                let angles = put_each(track.angles_deg(), &keys, origin);
+                angles.map(|angles| TrackValue::Euler(track.with_angles_deg(angles)))
+            }
             (Copied::Orientation(keys), Some(LaneTrack::Orientation(track))) => {
                 put_each(track, &keys, origin).map(TrackValue::Orientation)
             }

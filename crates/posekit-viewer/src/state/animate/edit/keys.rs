@@ -17,6 +17,10 @@ macro_rules! with_track {
             LaneTrack::Number($track) => $does.map(TrackValue::Number),
             LaneTrack::Vector($track) => $does.map(TrackValue::Vector),
             LaneTrack::Orientation($track) => $does.map(TrackValue::Orientation),
+            LaneTrack::Euler(euler) => {
+                let $track = euler.angles_deg();
+                $does.map(|angles| TrackValue::Euler(euler.with_angles_deg(angles)))
+            }
         }
     };
 }

@@ -1,12 +1,13 @@
 //! Editing keys: functions that make new tracks of old ones, for [`Authored::set_tracks`].
 //!
 //! [`pose`]: keys of whole poses. [`keys`]: what a dope sheet does to selected keys. [`clipboard`]: keys
-//! copied, pasted, mirrored.
+//! copied, pasted, mirrored. [`mode`]: rotations as quaternions or Euler curves.
 //!
 //! [`Authored::set_tracks`]: super::Authored::set_tracks
 
 pub mod clipboard;
 pub mod keys;
+pub mod mode;
 pub mod pose;
 pub mod tangents;
 

@@ -117,8 +117,7 @@ fn keys_on_lanes(
                     ..config
                 };
                 let keyed = key_pose(animation, [joint], pose, &alone).ok()?;
-                let track = keyed.rotation(joint).map(Arc::clone);
-                track.map(|track| TrackValue::Orientation(Arc::unwrap_or_clone(track)))
+                keyed.rotation(joint).cloned().map(TrackValue::from)
             }
             Lane::Translation(joint) => {
                 // One key makes it a joint that moves; that key is replaced.

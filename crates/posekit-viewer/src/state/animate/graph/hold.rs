@@ -6,8 +6,9 @@ use std::sync::Arc;
 use super::{ChannelId, DotId, Graph, HandleId};
 use crate::state::animate::Lane;
 use crate::state::animate::channel::{
-    Channels, Dot, Edited, Scaling, drag_handle, move_dots, scale_dots,
+    Channels, Dot, Edited, Scaling, drag_handle_to, move_dots, scale_dots,
 };
+use crate::state::animate::edit::mode::LOST_TURN;
 use crate::state::edit::Gesture;
 use crate::state::session::Session;
 
@@ -92,6 +93,20 @@ impl Graph {
 
     /// Moves the dots that are held by seconds and a value, counted from where they were taken.
     pub fn move_held(&mut self, session: &mut Session, [by_secs, by_value]: [f64; 2]) {
+        let loses = self.held.as_ref().is_some_and(|held| {
+            held.dots.iter().any(|id| {
+                let channels = held.curves.get(&id.lane);
+                let here = |channels: &Arc<Channels>| channels.at_key(id.dot.key)[id.dot.channel];
+                // Neighbours that go along keep their distance.
+                let mut along = held.dots.iter().filter(|it| it.channel() == id.channel());
+                let is_alone = along.nth(1).is_none();
+                let lost = |it: &Arc<Channels>| it.loses_turn(id.dot, here(it) + by_value);
+                is_alone && channels.is_some_and(lost)
+            })
+        });
+        if loses {
+            session.tell(LOST_TURN);
+        }
         self.change_held(session, "Move keys", |channels, dots| {
             move_dots(channels, dots, by_secs, by_value).ok()
         });
@@ -108,8 +123,8 @@ impl Graph {
         });
     }
 
-    /// Brings the handle that is held to a value.
-    pub fn drag_held_handle(&mut self, session: &mut Session, value: f64) {
+    /// Brings the handle that is held to a place: seconds and value.
+    pub fn drag_held_handle(&mut self, session: &mut Session, place: [f64; 2]) {
         let Some(HoldKind::Handle(HandleId { at, side })) = self.held.as_ref().map(Held::kind)
         else {
             return;
@@ -118,8 +133,7 @@ impl Graph {
             if !dots.contains(&at.dot) {
                 return None;
             }
-            let slope = channels.slope_to(at.dot.key, at.dot.channel, side, value)?;
-            drag_handle(channels, at.dot, side, slope).ok()
+            drag_handle_to(channels, at.dot, side, place).ok()
         });
     }
 

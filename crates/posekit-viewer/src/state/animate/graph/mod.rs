@@ -15,6 +15,7 @@ use posekit::rotation::EulerOrder;
 use posekit_formats::scene::JointValues;
 
 use super::channel::{self, Channels, Dot, Edited, Side, insert_on_curve};
+use super::edit::mode::LOST_TURN;
 use super::{Authored, KeyId, Lane, Owner};
 use crate::state::session::Session;
 pub use hold::{Held, HoldKind};
@@ -132,6 +133,7 @@ impl Graph {
                 .filter(|track| track.joint == name)
                 .find_map(|track| match &track.values {
                     JointValues::Rotation { euler, .. } => euler.as_ref().map(|euler| euler.order),
+                    JointValues::EulerRotation(track) => Some(track.order()),
                     JointValues::Translation(_) => None,
                 })
         };
@@ -333,6 +335,9 @@ impl Graph {
         };
         let edited =
             channel::move_dots(channels, &[id.dot], time_secs - place[0], value - place[1]);
+        if channels.loses_turn(id.dot, value) {
+            session.tell(LOST_TURN);
+        }
         if let Ok(edited) = edited {
             let dots = self.dots.clone();
             self.put(session, step, vec![(id.lane, edited)], &dots);
