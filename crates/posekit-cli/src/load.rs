@@ -33,11 +33,14 @@ impl Loaded {
 
     /// What the reader had to repair, as `file:line:column: message`.
     pub(crate) fn repairs(&self, input: &Input) -> Vec<String> {
-        let repairs = self.notices.iter().filter(|notice| is_repair(notice));
-        repairs
-            .map(|notice| notice_line(&input.name(), notice))
-            .collect()
+        repair_lines(&input.name(), &self.notices)
     }
+}
+
+/// What is wrong with a file of this name, a line each.
+pub(crate) fn repair_lines(name: &str, notices: &[Warning]) -> Vec<String> {
+    let repairs = notices.iter().filter(|notice| is_repair(notice));
+    repairs.map(|notice| notice_line(name, notice)).collect()
 }
 
 /// Whether a notice says that the file was wrong, and not merely unusual.
@@ -86,7 +89,12 @@ fn looks_like_xml(bytes: &[u8]) -> bool {
     text.trim_ascii_start().starts_with(b"<")
 }
 
-fn refuse_repairs(name: &str, report: &ImportReport, global: &Global) -> Result<(), Failure> {
+/// With `--strict`, fails where a file needed repair.
+pub(crate) fn refuse_repairs(
+    name: &str,
+    report: &ImportReport,
+    global: &Global,
+) -> Result<(), Failure> {
     match report.first_repair().filter(|_| global.strict) {
         None => Ok(()),
         Some(repair) => {
@@ -106,8 +114,8 @@ fn input_bytes(input: &Input) -> Result<Option<Vec<u8>>, Failure> {
     }
 }
 
-/// As [`load`], with the reader's whole report and the bytes that were read; a scene and a clip of
-/// our own have none.
+/// As [`load`], with the reader's whole report and the bytes that were read. A clip of our own has neither; a scene, which
+/// has no bytes here, has what the readers of the files that it names noticed.
 pub(crate) fn load_import(
     input: &Input,
     global: &Global,
@@ -119,7 +127,9 @@ pub(crate) fn load_import(
     };
     let bytes = match &input.source {
         Source::File(path) if scene_file::is_scene(path) => {
-            return without_notices(scene_file::document(path)?);
+            let import = scene_file::document(path)?;
+            refuse_repairs(&name, &import.report, global)?;
+            return Ok((import, Vec::new()));
         }
         Source::File(path) => file_bytes(path)?,
         Source::Stdin => stdin_bytes()?,
@@ -137,22 +147,20 @@ fn parse(name: &str, bytes: &[u8]) -> Result<Import<Bvh>, Failure> {
 /// `file:line:column: expected this, found that`, which editors and terminals make a link of.
 fn read_error_line(name: &str, error: &ReadError) -> String {
     let ReadError {
-        location,
+        place,
         expected,
         found,
         ..
     } = error;
-    format!(
-        "{name}:{}:{}: expected {expected}, found {found}",
-        location.line, location.column
-    )
+    let place = place.after_name();
+    format!("{name}{place}expected {expected}, found {found}")
 }
 
 fn notice_line(name: &str, notice: &Warning) -> String {
     let Warning {
         code,
-        line,
-        column,
+        file,
+        place,
         message,
         count,
     } = notice;
@@ -161,7 +169,11 @@ fn notice_line(name: &str, notice: &Warning) -> String {
     } else {
         String::new()
     };
-    one_line(&format!("{name}:{line}:{column}: {message} [{code}]{more}"))
+    let file = file
+        .as_ref()
+        .map_or(String::new(), |file| format!(": {file}"));
+    let place = place.after_name();
+    one_line(&format!("{name}{file}{place}{message} [{code}]{more}"))
 }
 
 fn file_bytes(path: &Path) -> Result<Vec<u8>, Failure> {

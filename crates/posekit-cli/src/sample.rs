@@ -52,11 +52,8 @@ impl Sample {
 
     /// The clip's motion.
     pub(crate) fn motion(self) -> Result<Motion, Failure> {
-        let named = format!("{}{}", scene::SAMPLE_PREFIX, self.name());
-        let motion = scene::motion_of(&named, |_| Err("it is no file".to_owned()));
-        motion
-            .map(Arc::unwrap_or_clone)
-            .map_err(|error| Failure::new(error.to_string()))
+        let motion = scene::sample_motion(self.name());
+        motion.ok_or_else(|| Failure::new(format!("there is no sample {}", self.name())))
     }
 
     /// The text of the scene file that the clip is authored in, if it is.

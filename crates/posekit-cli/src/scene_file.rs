@@ -5,7 +5,9 @@ use std::path::Path;
 
 use posekit::rotation::EulerOrder;
 use posekit_formats::bvh::Bvh;
-use posekit_formats::scene::{self, Scene, Shot};
+use posekit_formats::gltf;
+use posekit_formats::report::{Import, ImportReport};
+use posekit_formats::scene::{self, MotionFileError, Scene, Shot};
 
 use crate::console;
 use crate::failure::{Failure, one_line};
@@ -28,22 +30,28 @@ pub(crate) fn read(path: &Path) -> Result<Scene, Failure> {
     Ok(scene)
 }
 
-/// Puts a scene together with the files that it names, which stand beside it.
-pub(crate) fn shot(path: &Path, scene: &Scene) -> Result<Shot, Failure> {
+/// Puts a scene together with the files that it names, which stand beside it, and says what their readers noticed.
+pub(crate) fn shot(path: &Path, scene: &Scene) -> Result<Import<Shot>, Failure> {
     let folder = path.parent().unwrap_or(Path::new(""));
+    let mut report = ImportReport::default();
     let load = |named: &str| {
-        scene::motion_of(named, |named| {
+        let import = scene::import_of(named, scene.role_of(named), |named| {
             let path = folder.join(named);
             fs::read(&path).map_err(|error| Failure::cannot_read(&path, &error).to_string())
-        })
+        })?;
+        let (file, _) = gltf::file_and_animation(named);
+        report.take_in(file, import.report);
+        Ok::<_, MotionFileError>(import.document)
     };
-    Shot::new(scene, load).map_err(|error| {
+    let document = Shot::new(scene, load).map_err(|error| {
         Failure::new(one_line(&error.to_string())).in_file(&path.display().to_string())
-    })
+    })?;
+    Ok(Import { document, report })
 }
 
 /// The scene of a file as the document that all commands work on: baked at its own rate.
-pub(crate) fn document(path: &Path) -> Result<Bvh, Failure> {
-    let shot = shot(path, &read(path)?)?;
-    Ok(Bvh::from_motion(&shot.bake(None), EulerOrder::ZXY))
+pub(crate) fn document(path: &Path) -> Result<Import<Bvh>, Failure> {
+    let Import { document, report } = shot(path, &read(path)?)?;
+    let document = Bvh::from_motion(&document.bake(None), EulerOrder::ZXY);
+    Ok(Import { document, report })
 }

@@ -29,15 +29,58 @@ impl fmt::Display for Location {
     }
 }
 
+/// A place in a file of any format, as its readers can name it.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
+pub enum Place {
+    /// In a text, by line and column.
+    Text(Location),
+    /// In a binary file, or in one that is broken: the byte, counted from 0.
+    Byte(usize),
+    /// In JSON, the way to the value: `animations[0].channels[2]`; empty for the whole document.
+    Json(String),
+}
+
+impl Place {
+    /// The line and column, where it has them.
+    pub fn location(&self) -> Option<Location> {
+        match self {
+            Self::Text(location) => Some(*location),
+            Self::Byte(_) | Self::Json(_) => None,
+        }
+    }
+
+    /// What follows a file's name in front of a message: `:12:5: ` in a text, which editors and terminals make a
+    /// link of, else `: nodes[3]: `.
+    pub fn after_name(&self) -> String {
+        match self {
+            Self::Text(Location { line, column }) => format!(":{line}:{column}: "),
+            Self::Json(path) if path.is_empty() => ": ".to_owned(),
+            Self::Byte(_) | Self::Json(_) => format!(": {self}: "),
+        }
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Text(location) => location.fmt(out),
+            Self::Byte(byte) => write!(out, "byte {byte}"),
+            Self::Json(path) if path.is_empty() => out.write_str("the whole document"),
+            Self::Json(path) => out.write_str(path),
+        }
+    }
+}
+
 /// Something a reader noticed or repaired.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Warning {
     /// What kind of thing it is; stable across versions.
     pub code: WarningCode,
-    /// The line it is about, counted from 1.
-    pub line: usize,
-    /// The byte within that line, counted from 1.
-    pub column: usize,
+    /// The file it is about, as the one that was read names it; `None` when it is about that one itself.
+    pub file: Option<String>,
+    /// Where it is in the file.
+    pub place: Place,
     /// What was found and what was done about it, lower case, one sentence.
     pub message: String,
     /// How many occurrences this stands for: 1, or more where repeats were folded together. The place
@@ -45,20 +88,15 @@ pub struct Warning {
     pub count: usize,
 }
 
-impl Warning {
-    /// Where it is.
-    pub fn location(&self) -> Location {
-        Location {
-            line: self.line,
-            column: self.column,
-        }
-    }
-}
-
 impl fmt::Display for Warning {
-    /// `line 12, column 5: the message [its-code]`, and `(and 40 more)` where repeats were folded.
+    /// `line 12, column 5: the message [its-code]`, the file before it if it is another one, and `(and 40 more)` where
+    /// repeats were folded.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(out, "{}: {} [{}]", self.location(), self.message, self.code)?;
+        match &self.file {
+            Some(file) => write!(out, "{file}{}", self.place.after_name())?,
+            None => write!(out, "{}: ", self.place)?,
+        }
+        write!(out, "{} [{}]", self.message, self.code)?;
         if self.count > 1 {
             write!(out, " (and {} more)", self.count - 1)?;
         }
@@ -91,6 +129,20 @@ impl ImportReport {
     /// Whether a code occurred.
     pub fn has(&self, code: WarningCode) -> bool {
         self.count(code) > 0
+    }
+
+    /// Takes over what was noticed in a file that this one names; what is known already is left out, as when a scene
+    /// names a file twice.
+    pub fn take_in(&mut self, file: &str, theirs: Self) {
+        for warning in theirs.warnings {
+            let warning = Warning {
+                file: Some(warning.file.unwrap_or_else(|| file.to_owned())),
+                ..warning
+            };
+            if !self.warnings.contains(&warning) {
+                self.warnings.push(warning);
+            }
+        }
     }
 
     /// The first warning that means the file is wrong, not merely unusual: what `--strict` reports.
@@ -136,68 +188,58 @@ pub enum ReadErrorKind {
     UnknownName,
     /// Things that must form a tree do not: a cycle, several roots, two parents.
     NotATree,
+    /// The file needs an extension of its format that is not read.
+    UnknownExtension,
     /// The caller asked to stop.
     Cancelled,
 }
 
 /// The one error of a file that could not be read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{location}: expected {expected}, found {found}")]
+#[error("{place}: expected {expected}, found {found}")]
 pub struct ReadError {
     /// What kind of error it is.
     pub kind: ReadErrorKind,
     /// Where it is.
-    pub location: Location,
+    pub place: Place,
     /// What the format wants there.
     pub expected: String,
     /// What is there instead; a quotation is in backquotes and shortened.
     pub found: String,
 }
 
-/// Gathers warnings while a reader walks over the bytes, folds repeats, and turns byte offsets into
-/// lines and columns only for those that are kept.
+/// Gathers warnings and folds repeats.
 #[derive(Clone, Debug)]
-pub(crate) struct Reporter<'a> {
-    bytes: &'a [u8],
+pub(crate) struct Gathered {
     report: ImportReport,
     /// Per code, in the order of [`WarningCode::ALL`]: occurrences so far, and where the folded one is.
     seen: Vec<(usize, usize)>,
-    /// The last place that was located: offset, line, offset of the line's first byte.
-    mark: (usize, usize, usize),
 }
 
-impl<'a> Reporter<'a> {
-    pub(crate) fn new(bytes: &'a [u8]) -> Self {
+impl Gathered {
+    pub(crate) fn new() -> Self {
         Self {
-            bytes,
             report: ImportReport::default(),
             seen: vec![(0, 0); WarningCode::ALL.len()],
-            mark: (0, 1, 0),
         }
     }
 
-    /// Notes an occurrence at a byte offset; the message is only made when it is kept.
-    pub(crate) fn warn(&mut self, code: WarningCode, at: usize, message: impl FnOnce() -> String) {
-        self.warn_where(code, || at, message);
-    }
-
-    /// As [`warn`](Self::warn), where the place has to be looked for: only when it is kept.
-    pub(crate) fn warn_where(
+    /// Notes an occurrence; place and message are only made when they are kept.
+    pub(crate) fn add(
         &mut self,
         code: WarningCode,
-        find: impl FnOnce() -> usize,
+        place: impl FnOnce() -> Place,
         message: impl FnOnce() -> String,
     ) {
         let (occurrences, folded_at) = self.seen[code as usize];
         if occurrences > WARNINGS_KEPT_PER_CODE {
             self.report.warnings[folded_at].count += 1;
         } else {
-            let place = self.locate(find());
             self.seen[code as usize].1 = self.report.warnings.len();
             self.report.warnings.push(Warning {
                 code,
-                line: place.line,
-                column: place.column,
+                file: None,
+                place: place(),
                 message: message(),
                 count: 1,
             });
@@ -205,8 +247,30 @@ impl<'a> Reporter<'a> {
         self.seen[code as usize].0 += 1;
     }
 
-    /// The line and column of a byte offset. Cheap when offsets rise.
-    pub(crate) fn locate(&mut self, at: usize) -> Location {
+    /// The report, its work done.
+    pub(crate) fn finish(self) -> ImportReport {
+        self.report
+    }
+}
+
+/// Gathers warnings while a reader walks over the bytes of a text, and turns byte offsets into lines and columns only
+/// for those that are kept.
+#[derive(Clone, Debug)]
+pub(crate) struct Reporter<'a> {
+    lines: Lines<'a>,
+    gathered: Gathered,
+}
+
+/// Where the lines of a text are.
+#[derive(Clone, Debug)]
+struct Lines<'a> {
+    bytes: &'a [u8],
+    /// The last place that was located: offset, line, offset of the line's first byte.
+    mark: (usize, usize, usize),
+}
+
+impl Lines<'_> {
+    fn locate(&mut self, at: usize) -> Location {
         let at = at.min(self.bytes.len());
         if at < self.mark.0 {
             self.mark = (0, 1, 0);
@@ -227,6 +291,30 @@ impl<'a> Reporter<'a> {
             column: at - line_start + 1,
         }
     }
+}
+
+impl<'a> Reporter<'a> {
+    pub(crate) fn new(bytes: &'a [u8]) -> Self {
+        Self {
+            lines: Lines {
+                bytes,
+                mark: (0, 1, 0),
+            },
+            gathered: Gathered::new(),
+        }
+    }
+
+    /// Notes an occurrence at a byte offset; the message is only made when it is kept.
+    pub(crate) fn warn(&mut self, code: WarningCode, at: usize, message: impl FnOnce() -> String) {
+        let lines = &mut self.lines;
+        let place = || Place::Text(lines.locate(at));
+        self.gathered.add(code, place, message);
+    }
+
+    /// The line and column of a byte offset. Cheap when offsets rise.
+    pub(crate) fn locate(&mut self, at: usize) -> Location {
+        self.lines.locate(at)
+    }
 
     /// The error at a byte offset.
     pub(crate) fn error(
@@ -238,7 +326,7 @@ impl<'a> Reporter<'a> {
     ) -> ReadError {
         ReadError {
             kind,
-            location: self.locate(at),
+            place: Place::Text(self.locate(at)),
             expected: expected.into(),
             found: found.into(),
         }
@@ -256,7 +344,7 @@ impl<'a> Reporter<'a> {
 
     /// The report, its work done.
     pub(crate) fn finish(self) -> ImportReport {
-        self.report
+        self.gathered.finish()
     }
 }
 
@@ -307,6 +395,31 @@ mod tests {
                 .last()
                 .is_some_and(|w| w.to_string().contains("more)"))
         );
+    }
+
+    #[test]
+    fn what_was_noticed_in_a_named_file_is_taken_in_once_with_its_name() {
+        let mut gathered = Gathered::new();
+        let place = || Place::Json("buffers[0]".to_owned());
+        gathered.add(WarningCode::MissingBuffer, place, || "it is missing".into());
+        let theirs = gathered.finish();
+        let mut report = ImportReport::default();
+        report.take_in("rig.gltf", theirs.clone());
+        report.take_in("rig.gltf", theirs);
+        let shown: Vec<_> = report.warnings.iter().map(ToString::to_string).collect();
+        assert_eq!(
+            shown,
+            ["rig.gltf: buffers[0]: it is missing [missing-buffer]"]
+        );
+    }
+
+    #[test]
+    fn places_are_told_as_their_format_has_them() {
+        let text = Place::Text(Location { line: 3, column: 7 });
+        assert_eq!(text.after_name(), ":3:7: ");
+        assert_eq!(Place::Byte(12).after_name(), ": byte 12: ");
+        assert_eq!(Place::Json(String::new()).after_name(), ": ");
+        assert_eq!(Place::Json("nodes[1]".into()).to_string(), "nodes[1]");
     }
 
     #[test]

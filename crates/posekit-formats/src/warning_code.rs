@@ -117,7 +117,7 @@ warning_codes! {
     UnknownMaterial, "unknown-material", Warning;
     /// A visual has no shape, or one that the format does not have; it is left out.
     UnknownShape, "unknown-shape", Warning;
-    /// A buffer of numbers is not to be had; what is in it was left out.
+    /// A buffer of numbers is missing; what is in it was left out.
     MissingBuffer, "missing-buffer", Warning;
     /// A glTF file has another skin with joints that the first has not; they were left out.
     OtherSkin, "other-skin", Note;
@@ -131,6 +131,8 @@ warning_codes! {
     RotationNotUnit, "rotation-not-unit", Warning;
     /// An animation changes the scale of a joint; its scale at rest was used.
     AnimatedScale, "animated-scale", Warning;
+    /// The first key of an animation comes after the time 0; the motion starts with that key.
+    LateFirstKey, "late-first-key", Note;
     /// A channel of an animation could not be read and was left out.
     UnreadableTrack, "unreadable-track", Warning;
 }

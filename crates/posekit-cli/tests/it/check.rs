@@ -167,11 +167,13 @@ fn json_has_the_fields_of_the_guide() {
             [
                 "code",
                 "column",
+                "file",
                 "frames",
                 "joints",
                 "line",
                 "message",
                 "page",
+                "place",
                 "severity",
                 "share_of_height",
                 "unit",

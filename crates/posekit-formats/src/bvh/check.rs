@@ -8,7 +8,7 @@ use posekit::motion::PositionPolicy;
 use posekit::skeleton::{JointId, Skeleton, SkeletonError};
 
 use super::{Bvh, BvhJoint};
-use crate::report::{self, ImportReport, Location, Warning, WarningCode};
+use crate::report::{self, ImportReport, Place, Warning, WarningCode};
 
 /// One entry of a file's check, ready to be shown: a [`Finding`] or a reader's [`Warning`].
 #[derive(Clone, Debug, PartialEq)]
@@ -22,8 +22,10 @@ pub struct CheckEntry {
     pub joints: Vec<String>,
     /// The frames that it is about, counted from 0; `None` when it is about all or none.
     pub frames: Option<FrameRange>,
+    /// The file that it is about, where that is one that the checked one names.
+    pub file: Option<String>,
     /// Where it is in the file, for what the reader noticed.
-    pub location: Option<Location>,
+    pub place: Option<Place>,
     /// How much was measured, in `unit`.
     pub value: f64,
     /// What `value` counts.
@@ -78,10 +80,14 @@ const LINES_LISTED: usize = 8;
 /// a skeleton with five open ends has one peculiarity and not five.
 pub fn reader_entries(import_report: &ImportReport) -> Vec<CheckEntry> {
     let mut sorted: Vec<&Warning> = import_report.warnings.iter().collect();
-    sorted.sort_by_key(|warning| (warning.line, warning.column, warning.code));
+    // Ways in JSON stay in the order in which the reader walked over them.
+    sorted.sort_by_key(|warning| (warning.file.is_some(), warning.place.location()));
     let mut by_code: Vec<Vec<&Warning>> = Vec::new();
     for warning in sorted {
-        match by_code.iter_mut().find(|same| same[0].code == warning.code) {
+        let is_alike = |same: &&mut Vec<&Warning>| {
+            same[0].code == warning.code && same[0].file == warning.file
+        };
+        match by_code.iter_mut().find(is_alike) {
             Some(same) => same.push(warning),
             None => by_code.push(vec![warning]),
         }
@@ -111,7 +117,8 @@ fn warning_entry(same: &[&Warning]) -> CheckEntry {
         },
         joints: Vec::new(),
         frames: None,
-        location: Some(first.location()),
+        file: first.file.clone(),
+        place: Some(first.place.clone()),
         value: count as f64,
         unit: Unit::Occurrences,
         share_of_height: None,
@@ -136,16 +143,23 @@ fn name_open_ends(entry: &mut CheckEntry, bvh: &Bvh, skeleton: &Skeleton) {
     };
 }
 
-/// `, lines 12, 40, 88`, with dots where not all lines of `count` warnings are listed.
+/// `, lines 12, 40, 88`, with dots where not all places of `count` warnings are listed.
 fn other_lines(others: &[&Warning], count: usize) -> String {
-    let lines: Vec<String> = others
+    let places: Vec<String> = others
         .iter()
         .take(LINES_LISTED)
-        .map(|warning| warning.line.to_string())
+        .map(|warning| match &warning.place {
+            Place::Text(location) => location.line.to_string(),
+            place => place.to_string(),
+        })
         .collect();
-    let more = if lines.len() < count { ", ..." } else { "" };
-    match lines.as_slice() {
+    let are_lines = others
+        .iter()
+        .all(|warning| matches!(warning.place, Place::Text(_)));
+    let more = if places.len() < count { ", ..." } else { "" };
+    match places.as_slice() {
         [] => String::new(),
+        places if !are_lines => format!(", {}{more}", places.join(", ")),
         [line] => format!(", line {line}{more}"),
         lines => format!(", lines {}{more}", lines.join(", ")),
     }
@@ -158,7 +172,8 @@ fn finding_entry(finding: Finding, skeleton: &Skeleton) -> CheckEntry {
         severity: finding.severity,
         joints: finding.joints.iter().map(name).collect(),
         frames: finding.frames,
-        location: None,
+        file: None,
+        place: None,
         value: finding.value,
         unit: finding.unit,
         share_of_height: finding.share_of_height,

@@ -204,14 +204,16 @@ fn unwrap_joint<'a>(
 /// What the reader put right is right in a file written from the document.
 fn written_right(import: &Import<Bvh>) -> Vec<Change> {
     let warnings = import.report.warnings.iter();
-    let repairs = warnings.filter(|warning| warning.code.severity() == Severity::Warning);
+    // What is wrong with a file that this one names is written nowhere.
+    let repairs = warnings
+        .filter(|warning| warning.code.severity() == Severity::Warning && warning.file.is_none());
     repairs
         .filter(|warning| warning.code != crate::report::WarningCode::BadFrameTime)
         .map(|warning| Change {
             code: ChangeCode::WrittenRight,
             joint: None,
             frames: None,
-            location: Some(warning.location()),
+            location: warning.place.location(),
             count: warning.count,
             message: format!("{} [{}]", warning.message, warning.code),
         })

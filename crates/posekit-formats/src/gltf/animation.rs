@@ -1,11 +1,15 @@
 //! Animations by name, and at a frame rate.
 
+use std::ops::Range;
 use std::sync::Arc;
 
+use gltf::json::Root;
 use posekit::keyframe::BakeConfig;
 use posekit::motion::Motion;
 
-use super::{Gltf, GltfAnimation};
+use super::json_path::Step;
+use super::{Gltf, GltfAnimation, Notes, Wanted};
+use crate::report::{ReadError, ReadErrorKind, quote};
 
 /// An animation is baked to at most this many frames times joints: a gigabyte of rotations.
 pub const MAX_BAKED_JOINTS: usize = 1 << 26;
@@ -32,13 +36,13 @@ pub enum BakeError {
         known: String,
     },
     /// The rate is not a positive number.
-    #[error("{frames_per_sec} frames a second are no rate")]
+    #[error("{frames_per_sec} frames a second is not a rate")]
     NoRate {
         /// The rate.
         frames_per_sec: f64,
     },
     /// It would take more than [`MAX_BAKED_JOINTS`].
-    #[error("{duration_secs} s at {frames_per_sec} frames a second are too long a motion")]
+    #[error("{duration_secs} s at {frames_per_sec} frames a second is too long a motion")]
     TooLong {
         /// The duration in seconds.
         duration_secs: f64,
@@ -81,42 +85,84 @@ impl Gltf {
     }
 
     fn known_animations(&self) -> String {
-        /// More names than this are no help in one line.
-        const LISTED: usize = 8;
-        let names: Vec<String> = self
-            .animations
-            .iter()
-            .take(LISTED)
-            .map(|animation| format!("`{}`", animation.name))
-            .collect();
-        match self.animations.len() {
-            0 => "none".to_owned(),
-            count if count > LISTED => format!("{} and {} more", names.join(", "), count - LISTED),
-            _ => names.join(", "),
+        known(self.animations.iter().map(|a| a.name.as_str()))
+    }
+}
+
+/// Names in one line.
+fn known<'a>(names: impl ExactSizeIterator<Item = &'a str>) -> String {
+    /// More names than this are no help in one line.
+    const LISTED: usize = 8;
+    let count = names.len();
+    let names: Vec<String> = names.take(LISTED).map(|n| quote(n.as_bytes())).collect();
+    match count {
+        0 => "none".to_owned(),
+        count if count > LISTED => format!("{} and {} more", names.join(", "), count - LISTED),
+        _ => names.join(", "),
+    }
+}
+
+/// The name that an animation of a file goes by.
+pub(super) fn name_of(root: &Root, index: usize) -> String {
+    let said = root.animations[index].name.as_deref();
+    said.filter(|name| !name.is_empty())
+        .map_or_else(|| format!("animation {index}"), str::to_owned)
+}
+
+/// Which animations of a file those are that are wanted.
+pub(super) fn indices(
+    root: &Root,
+    wanted: Wanted<'_>,
+    notes: &Notes,
+) -> Result<Range<usize>, ReadError> {
+    let count = root.animations.len();
+    match wanted {
+        Wanted::All => Ok(0..count),
+        Wanted::Skeleton => Ok(0..0),
+        Wanted::First => Ok(0..count.min(1)),
+        Wanted::Named(name) => {
+            let found = (0..count).find(|&index| name_of(root, index) == name);
+            let index = found.ok_or_else(|| {
+                let names: Vec<String> = (0..count).map(|index| name_of(root, index)).collect();
+                notes.error(
+                    ReadErrorKind::UnknownName,
+                    &[Step::Key("animations")],
+                    format!("an animation {}", quote(name.as_bytes())),
+                    known(names.iter().map(String::as_str)),
+                )
+            })?;
+            Ok(index..index + 1)
         }
     }
 }
 
 impl GltfAnimation {
-    /// When its last key is, in seconds; it starts at 0.
-    pub fn duration_secs(&self) -> f64 {
-        let range = self.tracks.range_secs();
-        range.map_or(0.0, |[_, end]| end.max(0.0))
+    /// When its first and its last key are, in seconds; twice 0 where there is none.
+    pub fn range_secs(&self) -> [f64; 2] {
+        self.tracks.range_secs().unwrap_or_default()
     }
 
-    /// The frame rate that its keys keep to, of those that are usual, or 60 where they keep to none. The file
-    /// itself has none.
+    /// From its first key to its last, in seconds.
+    pub fn duration_secs(&self) -> f64 {
+        let [start, end] = self.range_secs();
+        end - start
+    }
+
+    /// The frame rate that its keys keep to, counted from the first, of those that are usual, or 60 where they keep to
+    /// none. The file itself has none.
     pub fn frames_per_sec(&self) -> f64 {
+        let [start, _] = self.range_secs();
         let times = self.tracks.key_times_secs(self.tracks.skeleton().joints());
         let keeps = |rate: &f64| {
-            times
-                .iter()
-                .all(|time| (time * rate - (time * rate).round()).abs() <= OFF_FRAME)
+            times.iter().all(|time| {
+                let frame = (time - start) * rate;
+                (frame - frame.round()).abs() <= OFF_FRAME
+            })
         };
         RATES.into_iter().find(keeps).unwrap_or(OTHER_RATE)
     }
 
-    /// The motion from 0 to the last key, both ends included, at a rate.
+    /// The motion from the first key to the last, both ends included, at a rate.
     ///
     /// # Errors
     /// [`BakeError`] when there is no such rate, or the motion would be too long.
@@ -125,7 +171,7 @@ impl GltfAnimation {
             return Err(BakeError::NoRate { frames_per_sec });
         }
         let duration_secs = self.duration_secs();
-        let config = BakeConfig::of_range([0.0, duration_secs], frames_per_sec);
+        let config = BakeConfig::of_range(self.range_secs(), frames_per_sec);
         let joint_count = self.tracks.skeleton().joint_count();
         match config.frame_count.checked_mul(joint_count) {
             Some(size) if size <= MAX_BAKED_JOINTS => Ok(self.tracks.bake(&config)),

@@ -7,15 +7,23 @@ use base64::engine::general_purpose::STANDARD;
 use gltf::json::Root;
 
 use super::Notes;
-use super::json_place::Step;
-use crate::report::{Location, ReadError, ReadErrorKind, WarningCode, quote};
+use super::json_path::{Step, path_at};
+use crate::report::{Place, ReadError, ReadErrorKind, WarningCode, quote};
 
 /// What a `.glb` starts with.
 const MAGIC: &[u8] = b"glTF";
 
+/// The bytes before the first chunk of a `.glb`: magic, version, length.
+const HEADER: usize = 12;
+
+/// The bytes before what is in a chunk: its length, its kind.
+const CHUNK_HEADER: usize = 8;
+
 /// The parts of a file.
 pub(super) struct Container<'a> {
     pub(super) json: &'a [u8],
+    /// At which byte of the file that begins.
+    json_start: usize,
     /// The buffer that a `.glb` carries.
     pub(super) binary: Option<&'a [u8]>,
 }
@@ -27,7 +35,11 @@ pub(super) fn open(bytes: &[u8]) -> Result<Container<'_>, ReadError> {
     }
     if !bytes.starts_with(MAGIC) {
         let json = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-        return Ok(Container { json, binary: None });
+        return Ok(Container {
+            json,
+            json_start: bytes.len() - json.len(),
+            binary: None,
+        });
     }
     let version = number_at(bytes, 4);
     if version != Some(2) {
@@ -35,45 +47,60 @@ pub(super) fn open(bytes: &[u8]) -> Result<Container<'_>, ReadError> {
         let kind = ReadErrorKind::Unexpected;
         return Err(at_byte(4, kind, "a binary glTF of version 2", found));
     }
-    let mut chunks = Chunks { bytes, at: 12 };
+    let mut chunks = Chunks { bytes, at: HEADER };
     let json = match chunks.next() {
         Some((b"JSON", json)) => json,
         _ => {
             let kind = ReadErrorKind::Unexpected;
-            return Err(at_byte(
-                12,
-                kind,
-                "a chunk of JSON",
-                quote(&bytes[12.min(bytes.len())..]),
-            ));
+            let found = quote(&bytes[HEADER.min(bytes.len())..]);
+            return Err(at_byte(HEADER, kind, "a chunk of JSON", found));
         }
     };
     // Chunks of other kinds are for extensions.
     let binary = chunks.find_map(|(kind, chunk)| (kind == b"BIN\0").then_some(chunk));
-    Ok(Container { json, binary })
+    Ok(Container {
+        json,
+        json_start: HEADER + CHUNK_HEADER,
+        binary,
+    })
 }
 
-/// The error of a text that is not what the format wants.
-pub(super) fn not_gltf(json: &[u8], error: &gltf::json::Error) -> ReadError {
+/// The error of a text that is not what the format wants: placed by the way to the value where it is JSON, else by
+/// the byte.
+pub(super) fn not_gltf(container: &Container<'_>, error: &gltf::json::Error) -> ReadError {
+    let json = container.json;
     let text = error.to_string();
     let what = text.split(" at line ").next().unwrap_or_default();
     let is_text = std::str::from_utf8(json).is_ok() && !json.contains(&0);
     let shown: String = what.chars().take(200).collect();
+    let byte = byte_of(json, error.line(), error.column());
     ReadError {
         kind: match is_text {
             true => ReadErrorKind::Unexpected,
             false => ReadErrorKind::NotText,
         },
-        location: Location {
-            line: error.line().max(1),
-            column: error.column().max(1),
+        place: match is_text && error.is_data() {
+            true => Place::Json(path_at(json, byte)),
+            false => Place::Byte(container.json_start + byte),
         },
         expected: "glTF 2.0 as JSON".to_owned(),
         found: match is_text {
             true => shown,
-            false => "bytes that are no text".to_owned(),
+            false => "bytes that are not text".to_owned(),
         },
     }
+}
+
+/// The byte that a parser which counts lines, and bytes in them, read last.
+fn byte_of(json: &[u8], line: usize, column: usize) -> usize {
+    let before = line.saturating_sub(2);
+    let line_start = match line {
+        0 | 1 => 0,
+        _ => memchr::memchr_iter(b'\n', json)
+            .nth(before)
+            .map_or(0, |end| end + 1),
+    };
+    (line_start + column.saturating_sub(1)).min(json.len())
 }
 
 fn at_byte(
@@ -84,10 +111,7 @@ fn at_byte(
 ) -> ReadError {
     ReadError {
         kind,
-        location: Location {
-            line: 1,
-            column: byte + 1,
-        },
+        place: Place::Byte(byte),
         expected: expected.to_owned(),
         found: found.into(),
     }
@@ -109,10 +133,10 @@ impl<'a> Iterator for Chunks<'a> {
 
     fn next(&mut self) -> Option<Self::Item> {
         let length = usize::try_from(number_at(self.bytes, self.at)?).ok()?;
-        let kind = self.bytes.get(self.at + 4..self.at + 8)?;
-        let rest = &self.bytes[self.at + 8..];
+        let kind = self.bytes.get(self.at + 4..self.at + CHUNK_HEADER)?;
+        let rest = &self.bytes[self.at + CHUNK_HEADER..];
         let chunk = &rest[..length.min(rest.len())];
-        self.at += 8 + chunk.len();
+        self.at += CHUNK_HEADER + chunk.len();
         Some((kind, chunk))
     }
 }
@@ -133,15 +157,12 @@ impl<'a, F: FnMut(&str) -> Option<Vec<u8>>> Buffers<'a, F> {
         }
     }
 
-    /// The bytes of a buffer, if they can be had. That they cannot is warned of once.
-    pub(super) fn get(
-        &mut self,
-        root: &Root,
-        index: usize,
-        notes: &mut Notes<'_>,
-    ) -> Option<&[u8]> {
+    /// Fetches a buffer if it was not yet. That it cannot be had is warned of once.
+    pub(super) fn fetch(&mut self, root: &Root, index: usize, notes: &mut Notes) {
         self.held.resize(root.buffers.len(), None);
-        let held = self.held.get_mut(index)?;
+        let Some(held) = self.held.get_mut(index) else {
+            return;
+        };
         if held.is_none() {
             let uri = root.buffers[index].uri.as_deref();
             let bytes = match uri {
@@ -156,12 +177,16 @@ impl<'a, F: FnMut(&str) -> Option<Vec<u8>>> Buffers<'a, F> {
                 let path = [Step::Key("buffers"), Step::Index(index)];
                 notes.warn(WarningCode::MissingBuffer, &path, || {
                     let name = uri.map_or("in the file".to_owned(), |uri| quote(uri.as_bytes()));
-                    format!("buffer {index} ({name}) is not to be had; what is in it was left out")
+                    format!("buffer {index} ({name}) is missing; what is in it was left out")
                 });
             }
             *held = Some(bytes);
         }
-        held.as_ref()?.as_deref()
+    }
+
+    /// The bytes of a buffer that was [fetched](Self::fetch), if they could be had.
+    pub(super) fn get(&self, index: usize) -> Option<&[u8]> {
+        self.held.get(index)?.as_ref()?.as_deref()
     }
 }
 

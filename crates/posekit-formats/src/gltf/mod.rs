@@ -17,19 +17,25 @@
 //! along all axes that stays true while the joints turn; where it is not, or is animated, it does not, and
 //! the report says so.
 //!
-//! **Animations** are tracks of the joints' rotations and translations: `STEP`, `LINEAR` (slerp for
-//! rotations) and `CUBICSPLINE` as appendix C of the specification defines them, but that a rotation always
-//! takes the short way from key to key. Before its first key and after its last a joint stands still. They
-//! have no frame rate; [`GltfAnimation::bake`] samples them at any.
+//! **Animations** are tracks of the joints' rotations and translations: `STEP`, `LINEAR` (slerp the short way for
+//! rotations) and `CUBICSPLINE` as appendix C of the specification defines them, the last with the signs that the
+//! file gives its quaternions. Before its first key and after its last a joint stands still. They have no frame rate;
+//! [`GltfAnimation::bake`] samples them at any, from the first key of all on.
+//!
+//! **Accessors** may be sparse, or have no view at all, and numbers may be integers that stand for shares of one.
+//!
+//! **Extensions** that a file only uses are passed over. One that it requires must be among
+//! [`HARMLESS_EXTENSIONS`] or start as one of [`HARMLESS_EXTENSION_PREFIXES`], or the file is refused by its name.
 //!
 //! **Guarantees.** No bytes make the reader panic, and it takes memory in proportion to their number
-//! ([`MAX_KEYS_PER_BYTE`]). What can be read is read and every liberty is a warning, placed by line and
-//! column of the JSON, which in a `.glb` counts from the start of its first chunk.
+//! ([`MAX_KEYS_PER_BYTE`]). What can be read is read and every liberty is a warning, placed by the way to the
+//! value in the JSON (`animations[0].channels[2]`).
 
 mod accessor;
 mod animation;
 mod container;
-mod json_place;
+mod extensions;
+mod json_path;
 mod nodes;
 mod tracks;
 
@@ -39,9 +45,10 @@ use gltf::json::{Root, deserialize};
 use posekit::keyframe::Animation;
 use posekit::skeleton::Skeleton;
 
-use crate::report::{Import, ReadError, ReadErrorKind, Reporter, quote};
+use crate::report::{Gathered, Import, Place, ReadError, ReadErrorKind, quote};
 pub use animation::{BakeError, MAX_BAKED_JOINTS, file_and_animation};
-use json_place::{Step, place_of};
+pub use extensions::{HARMLESS_EXTENSION_PREFIXES, HARMLESS_EXTENSIONS};
+use json_path::{Step, path_text};
 pub use tracks::MAX_KEYS_PER_BYTE;
 
 /// The skeleton of a file, and how it can move.
@@ -82,9 +89,23 @@ pub fn is_gltf_name(name: &str) -> bool {
 /// Reads a file that is whole in itself. Buffers in files beside it count as missing.
 ///
 /// # Errors
-/// [`ReadError`] when it is no glTF 2.0, its nodes make no tree, or there are none.
+/// [`ReadError`] when it is not glTF 2.0, requires an extension that is not read, its nodes are not a tree, or there are
+/// none.
 pub fn read(bytes: &[u8]) -> Result<Import<Gltf>, ReadError> {
     read_with(bytes, |_| None)
+}
+
+/// Which animations of a file are read. What is wrong with the others is not told.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wanted<'a> {
+    /// All of them.
+    All,
+    /// None: the skeleton alone.
+    Skeleton,
+    /// The first one, if there is any.
+    First,
+    /// The first one of this name.
+    Named(&'a str),
 }
 
 /// Reads a file. `fetch` gives the bytes of a buffer by its address, relative to the file and decoded, if they
@@ -96,57 +117,72 @@ pub fn read_with(
     bytes: &[u8],
     fetch: impl FnMut(&str) -> Option<Vec<u8>>,
 ) -> Result<Import<Gltf>, ReadError> {
+    read_wanted(bytes, Wanted::All, fetch)
+}
+
+/// As [`read_with()`], some of the animations only.
+///
+/// # Errors
+/// As [`read()`], or [`ReadErrorKind::UnknownName`] when there is no animation of the wanted name.
+pub fn read_wanted(
+    bytes: &[u8],
+    wanted: Wanted<'_>,
+    fetch: impl FnMut(&str) -> Option<Vec<u8>>,
+) -> Result<Import<Gltf>, ReadError> {
     let container = container::open(bytes)?;
     let mut notes = Notes {
-        json: container.json,
-        reporter: Reporter::new(container.json),
+        gathered: Gathered::new(),
     };
     let root: Root = deserialize::from_slice(container.json)
-        .map_err(|error| container::not_gltf(container.json, &error))?;
+        .map_err(|error| container::not_gltf(&container, &error))?;
     if !root.asset.version.starts_with("2.") {
         let found = quote(root.asset.version.as_bytes());
         let path = [Step::Key("asset"), Step::Key("version")];
         return Err(notes.error(ReadErrorKind::Unexpected, &path, "version 2.0", found));
     }
+    extensions::check(&root, &notes)?;
     let rig = nodes::rig(&root, &mut notes)?;
     let buffers = container::Buffers::new(container.binary, fetch);
-    let animations = tracks::animations(&root, &rig, buffers, (bytes.len(), &mut notes))?;
+    let wanted = animation::indices(&root, wanted, &notes)?;
+    let animations = tracks::animations(&root, &rig, wanted, buffers, (bytes.len(), &mut notes))?;
     let document = Gltf {
         skeleton: rig.skeleton,
         animations,
     };
     Ok(Import {
         document,
-        report: notes.reporter.finish(),
+        report: notes.gathered.finish(),
     })
 }
 
 /// Where the parts of the reader put what they notice.
-struct Notes<'a> {
-    json: &'a [u8],
-    reporter: Reporter<'a>,
+struct Notes {
+    gathered: Gathered,
 }
 
-impl Notes<'_> {
+impl Notes {
     fn warn(
         &mut self,
         code: crate::report::WarningCode,
         path: &[Step<'_>],
         message: impl FnOnce() -> String,
     ) {
-        let json = self.json;
-        self.reporter
-            .warn_where(code, || place_of(json, path), message);
+        let place = || Place::Json(path_text(path));
+        self.gathered.add(code, place, message);
     }
 
     fn error(
-        &mut self,
+        &self,
         kind: ReadErrorKind,
         path: &[Step<'_>],
         expected: impl Into<String>,
         found: impl Into<String>,
     ) -> ReadError {
-        let at = place_of(self.json, path);
-        self.reporter.error(kind, at, expected, found)
+        ReadError {
+            kind,
+            place: Place::Json(path_text(path)),
+            expected: expected.into(),
+            found: found.into(),
+        }
     }
 }

@@ -8,7 +8,7 @@ use gltf::json::scene::Node;
 use posekit::skeleton::{Skeleton, SkeletonBuilder, SkeletonError};
 
 use super::Notes;
-use super::json_place::Step;
+use super::json_path::Step;
 use crate::report::{ReadError, ReadErrorKind, WarningCode};
 
 /// Scales that differ from each other or from one by less than this do so by rounding.
@@ -71,7 +71,7 @@ struct Placed {
 }
 
 /// Makes the skeleton.
-pub(super) fn rig(root: &Root, notes: &mut Notes<'_>) -> Result<Rig, ReadError> {
+pub(super) fn rig(root: &Root, notes: &mut Notes) -> Result<Rig, ReadError> {
     let order = walk(root, notes)?;
     let is_joint = choose(root, &order, notes)?;
     let mut builder = SkeletonBuilder::new();
@@ -147,7 +147,7 @@ pub(super) fn rig(root: &Root, notes: &mut Notes<'_>) -> Result<Rig, ReadError> 
 }
 
 /// All nodes, each with its parent, a parent before its children, as the file lists them.
-fn walk(root: &Root, notes: &mut Notes<'_>) -> Result<Vec<(usize, Option<usize>)>, ReadError> {
+fn walk(root: &Root, notes: &mut Notes) -> Result<Vec<(usize, Option<usize>)>, ReadError> {
     let count = root.nodes.len();
     let mut parents: Vec<Option<usize>> = vec![None; count];
     for (node, child, place) in children(root) {
@@ -209,7 +209,7 @@ fn children(root: &Root) -> impl Iterator<Item = (usize, usize, usize)> {
 fn choose(
     root: &Root,
     order: &[(usize, Option<usize>)],
-    notes: &mut Notes<'_>,
+    notes: &mut Notes,
 ) -> Result<Vec<bool>, ReadError> {
     let skinned = root.skins.first().filter(|skin| !skin.joints.is_empty());
     let Some(skin) = skinned else {
@@ -262,7 +262,7 @@ fn choose(
 fn in_scene(
     root: &Root,
     order: &[(usize, Option<usize>)],
-    notes: &mut Notes<'_>,
+    notes: &mut Notes,
 ) -> Result<Vec<bool>, ReadError> {
     if root.nodes.is_empty() {
         let wanted = "nodes, which make a skeleton";
@@ -297,7 +297,7 @@ fn in_scene(
     Ok(is_in)
 }
 
-fn name(node: &Node, index: usize, notes: &mut Notes<'_>) -> String {
+fn name(node: &Node, index: usize, notes: &mut Notes) -> String {
     match node.name.as_deref() {
         Some(name) if !name.is_empty() => name.to_owned(),
         _ => {
@@ -312,7 +312,7 @@ fn name(node: &Node, index: usize, notes: &mut Notes<'_>) -> String {
 }
 
 /// A node's transform; what is wrong with it is said of joints, and repaired in all.
-fn transform(node: &Node, index: usize, is_joint: bool, notes: &mut Notes<'_>) -> Transform {
+fn transform(node: &Node, index: usize, is_joint: bool, notes: &mut Notes) -> Transform {
     let mut warn = |code, what: &str, message: String| {
         if is_joint {
             let path = [Step::Key("nodes"), Step::Index(index), Step::Key(what)];
@@ -378,7 +378,8 @@ fn transform(node: &Node, index: usize, is_joint: bool, notes: &mut Notes<'_>) -
 fn warn_of_scale(scale: DVec3, what: &str, warn: &mut impl FnMut(WarningCode, &str, String)) {
     let even = DVec3::splat(scale.x);
     let [x, y, z] = scale.to_array();
-    if scale.x <= 0.0 || !scale.abs_diff_eq(even, SCALE_TOLERANCE * scale.x.abs()) {
+    // A mirroring that is the same along all axes commutes with every rotation.
+    if scale.x == 0.0 || !scale.abs_diff_eq(even, SCALE_TOLERANCE * scale.x.abs()) {
         let message = format!(
             "the scale {x} {y} {z} is not the same along all axes: what is below it is in its place at rest only"
         );

@@ -1,20 +1,23 @@
 //! Channels and samplers to tracks.
 
+use std::ops::Range;
+
 use glam::{DQuat, DVec3};
 use gltf::json::Root;
 use gltf::json::animation::{Channel, Interpolation as Said, Property, Sampler};
+use gltf::json::buffer::View;
 use gltf::json::validation::Checked;
 use posekit::keyframe::{
     Animation, Extrapolation, Interpolation, KeyValue, Keyframe, Tangents, Track,
 };
 use posekit::skeleton::JointId;
 
-use super::accessor::vectors;
+use super::accessor::{Source, Viewed, vectors};
 use super::container::Buffers;
-use super::json_place::Step;
+use super::json_path::Step;
 use super::nodes::Rig;
-use super::{GltfAnimation, Notes};
-use crate::report::{ReadError, ReadErrorKind, WarningCode};
+use super::{GltfAnimation, Notes, animation};
+use crate::report::{ReadError, ReadErrorKind, WarningCode, quote};
 
 /// How many keys a file may have for each of its bytes, every animation counting one for each joint as well. A
 /// key takes four bytes at least, but many tracks may share them; exporters come nowhere near.
@@ -30,12 +33,13 @@ struct Keys<const N: usize> {
     said: Said,
 }
 
-/// Reads all animations.
+/// Reads the animations of these indices.
 pub(super) fn animations<F: FnMut(&str) -> Option<Vec<u8>>>(
     root: &Root,
     rig: &Rig,
+    wanted: Range<usize>,
     buffers: Buffers<'_, F>,
-    (byte_count, notes): (usize, &mut Notes<'_>),
+    (byte_count, notes): (usize, &mut Notes),
 ) -> Result<Vec<GltfAnimation>, ReadError> {
     let mut reader = Reader {
         root,
@@ -43,12 +47,18 @@ pub(super) fn animations<F: FnMut(&str) -> Option<Vec<u8>>>(
         buffers,
         keys_left: byte_count.saturating_mul(MAX_KEYS_PER_BYTE),
     };
-    let mut animations = Vec::with_capacity(root.animations.len());
-    for (index, said) in root.animations.iter().enumerate() {
-        let animation = [Step::Key("animations"), Step::Index(index)];
-        let too_many = |notes: &mut Notes<'_>| {
+    let mut animations = Vec::with_capacity(wanted.len());
+    for index in wanted {
+        let said = &root.animations[index];
+        let animation_path = [Step::Key("animations"), Step::Index(index)];
+        let too_many = |notes: &mut Notes| {
             let wanted = format!("at most {byte_count} keys in all");
-            notes.error(ReadErrorKind::LimitExceeded, &animation, wanted, "more")
+            notes.error(
+                ReadErrorKind::LimitExceeded,
+                &animation_path,
+                wanted,
+                "more",
+            )
         };
         if reader.take(rig.skeleton.joint_count()).is_err() {
             return Err(too_many(notes));
@@ -83,11 +93,18 @@ pub(super) fn animations<F: FnMut(&str) -> Option<Vec<u8>>>(
                 }
             }
         }
-        let name = said.name.clone().filter(|name| !name.is_empty());
-        animations.push(GltfAnimation {
-            name: name.unwrap_or_else(|| format!("animation {index}")),
-            tracks,
-        });
+        let name = animation::name_of(root, index);
+        if let Some(start) = tracks.range_secs().map(|[start, _]| start)
+            && start > 0.0
+        {
+            notes.warn(WarningCode::LateFirstKey, &animation_path, || {
+                format!(
+                    "the first key of {} is at {start:.4} s; it starts there",
+                    quote(name.as_bytes())
+                )
+            });
+        }
+        animations.push(GltfAnimation { name, tracks });
     }
     Ok(animations)
 }
@@ -120,7 +137,7 @@ struct Reader<'a, F> {
     keys_left: usize,
 }
 
-impl<F: FnMut(&str) -> Option<Vec<u8>>> Reader<'_, F> {
+impl<'a, F: FnMut(&str) -> Option<Vec<u8>>> Reader<'a, F> {
     /// Counts keys.
     fn take(&mut self, count: usize) -> Result<(), Trouble> {
         let left = self.keys_left.checked_sub(count);
@@ -133,7 +150,7 @@ impl<F: FnMut(&str) -> Option<Vec<u8>>> Reader<'_, F> {
         channel: &Channel,
         sampler: Option<&Sampler>,
         tracks: &Animation,
-        notes: &mut Notes<'_>,
+        notes: &mut Notes,
     ) -> Result<Moved, Trouble> {
         let node = channel.target.node.value();
         let joints = &self.rig.joint_of_node;
@@ -189,20 +206,21 @@ impl<F: FnMut(&str) -> Option<Vec<u8>>> Reader<'_, F> {
     fn keys<const N: usize>(
         &mut self,
         sampler: &Sampler,
-        notes: &mut Notes<'_>,
+        notes: &mut Notes,
     ) -> Result<Keys<N>, Trouble> {
         let Checked::Valid(said) = sampler.interpolation else {
             return Err("its interpolation is unknown".into());
         };
-        let times = self.numbers::<1>(sampler.input.value(), notes)?;
-        let values = self.numbers::<N>(sampler.output.value(), notes)?;
+        let times = self.numbers::<1>(sampler.input.value(), self.keys_left, notes)?;
+        self.take(times.len())?;
         let for_each = if said == Said::CubicSpline { 3 } else { 1 };
-        if times.is_empty() || values.len() != for_each * times.len() {
+        let wanted = for_each * times.len();
+        let values = self.numbers::<N>(sampler.output.value(), wanted, notes)?;
+        if times.is_empty() || values.len() != wanted {
             let (times, values) = (times.len(), values.len());
             let why = format!("there are {values} values for {times} times");
             return Err(Trouble::Unreadable(why));
         }
-        self.take(times.len())?;
         Ok(Keys {
             times,
             values,
@@ -210,19 +228,43 @@ impl<F: FnMut(&str) -> Option<Vec<u8>>> Reader<'_, F> {
         })
     }
 
+    /// The vectors of an accessor, at most so many of them where the buffers do not bound their number.
     fn numbers<const N: usize>(
         &mut self,
         index: usize,
-        notes: &mut Notes<'_>,
+        most: usize,
+        notes: &mut Notes,
     ) -> Result<Vec<[f32; N]>, Trouble> {
-        let accessor = self.root.accessors.get(index);
+        let root = self.root;
+        let accessor = root.accessors.get(index);
         let accessor = accessor.ok_or("there is no such accessor")?;
-        let view = accessor.buffer_view.as_ref();
-        let view = view.and_then(|view| self.root.buffer_views.get(view.value()));
-        let view = view.ok_or("its accessor has no buffer")?;
-        let buffer = self.buffers.get(self.root, view.buffer.value(), notes);
-        let buffer = buffer.ok_or("its buffer is not to be had")?;
-        vectors(accessor, view, buffer)
+        let mut view = |view: usize| {
+            let view = root.buffer_views.get(view);
+            let view = view.ok_or("its accessor has no buffer")?;
+            self.buffers.fetch(root, view.buffer.value(), notes);
+            Ok::<_, Trouble>(view)
+        };
+        let own = accessor.buffer_view.as_ref();
+        let own = own.map(|own| view(own.value())).transpose()?;
+        let sparse = accessor.sparse.as_ref();
+        let sparse = sparse.map(|sparse| {
+            let indices = view(sparse.indices.buffer_view.value())?;
+            Ok::<_, Trouble>([indices, view(sparse.values.buffer_view.value())?])
+        });
+        let sparse = sparse.transpose()?;
+        let buffers = &self.buffers;
+        let viewed = |view: &'a View| match buffers.get(view.buffer.value()) {
+            Some(buffer) => Ok(Viewed { view, buffer }),
+            None => Err(Trouble::from("its buffer is missing")),
+        };
+        let source = Source {
+            elements: own.map(viewed).transpose()?,
+            sparse: match sparse {
+                Some([indices, values]) => Some([viewed(indices)?, viewed(values)?]),
+                None => None,
+            },
+        };
+        vectors(accessor, &source, most)
             .map_err(|why| Trouble::Unreadable(format!("accessor {index}: {why}")))
     }
 }
@@ -261,8 +303,12 @@ impl<const N: usize> Keys<N> {
                 ..Keyframe::new(f64::from(time[0]), value, interpolation)
             });
         }
-        Track::new(keys, Extrapolation::Hold)
-            .map_err(|error| Trouble::Unreadable(error.to_string()))
+        // Appendix C: a cubic goes as the signs say; on straight ways the short one is taken.
+        let track = match self.said {
+            Said::CubicSpline => Track::with_signs_as_given(keys, Extrapolation::Hold),
+            Said::Linear | Said::Step => Track::new(keys, Extrapolation::Hold),
+        };
+        track.map_err(|error| Trouble::Unreadable(error.to_string()))
     }
 }
 

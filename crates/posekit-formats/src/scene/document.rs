@@ -42,6 +42,15 @@ pub enum SkeletonSource {
     Inline(Vec<InlineJoint>),
 }
 
+/// What a scene takes from a file that it names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileRole {
+    /// The skeleton alone.
+    Skeleton,
+    /// What it plays.
+    Motion,
+}
+
 /// A joint of a skeleton that stands in the scene itself.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InlineJoint {
@@ -68,7 +77,8 @@ pub struct MotionLayer {
     pub file: String,
     /// When it starts in the scene, in seconds.
     pub start_secs: f64,
-    /// From when to when of the file it plays; all of it when not given.
+    /// From when to when of the file it plays, by the file's own clock; from its first frame or key to its last when
+    /// not given.
     pub clip_secs: Option<[f64; 2]>,
 }
 
@@ -270,6 +280,14 @@ impl Scene {
             }
         }
         files
+    }
+
+    /// What is taken from a file of this name: its motion, unless no layer plays it.
+    pub fn role_of(&self, file: &str) -> FileRole {
+        match self.motions.iter().any(|layer| layer.file == file) {
+            true => FileRole::Motion,
+            false => FileRole::Skeleton,
+        }
     }
 
     /// The tracks as an animation of the skeleton.

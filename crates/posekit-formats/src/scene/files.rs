@@ -3,9 +3,12 @@
 use std::fmt;
 use std::sync::Arc;
 
+use posekit::keyframe::Animation;
 use posekit::motion::{Motion, PositionPolicy};
 
-use super::{AUTHORED_WALK, SceneProblem, SceneReadError, Shot, is_scene_name, read};
+use super::{AUTHORED_WALK, FileMotion, FileRole, SceneReadError, Shot, is_scene_name, read};
+use crate::gltf::Wanted;
+use crate::report::{Import, ImportReport};
 use crate::{bvh, gltf};
 
 /// What the name of a clip of our own starts with in a scene.
@@ -26,21 +29,25 @@ impl fmt::Display for MotionFileError {
 
 impl std::error::Error for MotionFileError {}
 
-/// The motion that a scene means by a name: a clip of our own, that of a BVH file, or an animation of a
-/// glTF file (`knight.glb#Idle`, the first one without a name). `bytes_of` gives the bytes of a file by its
-/// name as the scene has it, without the animation's. It is what [`Shot::new`] wants to be told.
+/// What a scene means by a name: a clip of our own, the motion of a BVH file, or an animation of a glTF file
+/// (`knight.glb#Idle`, the first one without a name), with what its reader noticed. `bytes_of` gives the bytes of a file
+/// by its name as the scene has it, without the animation's. The document is what [`Shot::new`] wants to be told;
+/// of a glTF file whose [role](super::Scene::role_of) is that of the skeleton no animation is read.
 ///
 /// # Errors
 /// [`MotionFileError`] when there is no such sample, the file cannot be had, or it holds no motion.
-pub fn motion_of(
+pub fn import_of(
     named: &str,
+    role: FileRole,
     bytes_of: impl Fn(&str) -> Result<Vec<u8>, String>,
-) -> Result<Arc<Motion>, MotionFileError> {
+) -> Result<Import<FileMotion>, MotionFileError> {
     if let Some(sample) = named.strip_prefix(SAMPLE_PREFIX) {
         let motion = sample_motion(sample);
-        return motion
-            .map(Arc::new)
-            .ok_or_else(|| MotionFileError("there is no such sample".to_owned()));
+        let motion = motion.ok_or_else(|| MotionFileError("there is no such sample".to_owned()))?;
+        return Ok(Import {
+            document: FileMotion::Frames(Arc::new(motion)),
+            report: ImportReport::default(),
+        });
     }
     if is_scene_name(named) {
         let why = "a scene cannot play another scene; bake it to a .bvh first";
@@ -51,13 +58,27 @@ pub fn motion_of(
     let refused = |error: &dyn fmt::Display| MotionFileError(error.to_string());
     if gltf::is_gltf_name(file) {
         let beside = |name: &str| bytes_of(&name_beside(file, name)?).ok();
-        let import = gltf::read_with(&bytes, beside).map_err(|error| refused(&error))?;
-        let motion = import.document.motion(animation);
-        return motion.map(Arc::new).map_err(|error| refused(&error));
+        let wanted = match (animation, role) {
+            (Some(name), _) => Wanted::Named(name),
+            (None, FileRole::Motion) => Wanted::First,
+            (None, FileRole::Skeleton) => Wanted::Skeleton,
+        };
+        let import = gltf::read_wanted(&bytes, wanted, beside).map_err(|error| refused(&error))?;
+        let gltf = import.document;
+        let played = gltf.animations.into_iter().next();
+        let tracks = played.map_or_else(|| Animation::new(gltf.skeleton), |played| played.tracks);
+        return Ok(Import {
+            document: FileMotion::Keys(Arc::new(tracks)),
+            report: import.report,
+        });
     }
     let import = bvh::read(&bytes).map_err(|error| refused(&error))?;
     let motion = import.document.to_motion(PositionPolicy::Replace);
-    motion.map(Arc::new).map_err(|error| refused(&error))
+    let motion = motion.map_err(|error| refused(&error))?;
+    Ok(Import {
+        document: FileMotion::Frames(Arc::new(motion)),
+        report: import.report,
+    })
 }
 
 /// The name of a buffer that a glTF file names, as the scene would have it; `None` unless it lies beside
@@ -71,13 +92,13 @@ fn name_beside(file: &str, buffer: &str) -> Option<String> {
     Some(format!("{folder}{buffer}"))
 }
 
-/// A clip of our own by its name, the authored walk among them.
-fn sample_motion(name: &str) -> Option<Motion> {
+/// A clip of our own by its name, [`AUTHORED_WALK_NAME`] among them; `None` where there is no such clip.
+pub fn sample_motion(name: &str) -> Option<Motion> {
     if name != AUTHORED_WALK_NAME {
         return posekit::sample::by_name(name);
     }
     let scene = read(AUTHORED_WALK.as_bytes()).ok()?;
-    let none = |_: &str| Err(MotionFileError(String::new()));
+    let none = |_: &str| Err::<FileMotion, _>(MotionFileError(String::new()));
     Some(Shot::new(&scene, none).ok()?.bake(None))
 }
 

@@ -24,17 +24,19 @@
 //! The file is TOML 1.0 and memory is in proportion to its length.
 
 mod document;
+mod file_motion;
 mod files;
 pub(crate) mod read;
 mod shot;
 mod write;
 
 pub use document::{
-    Camera, EulerNotation, InlineJoint, JointTrack, JointValues, Light, MotionLayer, Prop, Scene,
-    SceneError, SceneWriteError, SkeletonSource, check,
+    Camera, EulerNotation, FileRole, InlineJoint, JointTrack, JointValues, Light, MotionLayer,
+    Prop, Scene, SceneError, SkeletonSource,
 };
-pub use files::{AUTHORED_WALK_NAME, MotionFileError, SAMPLE_PREFIX, motion_of};
-pub use read::{SceneProblem, SceneProblemKind, SceneReadError, read, read_with_warnings};
+pub use file_motion::FileMotion;
+pub use files::{AUTHORED_WALK_NAME, MotionFileError, SAMPLE_PREFIX, import_of, sample_motion};
+pub use read::{SceneProblem, SceneProblemKind, SceneReadError, read};
 pub use shot::{Shot, ShotError};
 pub(crate) use write::quoted;
 pub use write::write;

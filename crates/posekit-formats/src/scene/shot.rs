@@ -8,6 +8,7 @@ use posekit::pose::LocalPose;
 use posekit::skeleton::{JointId, Skeleton, SkeletonError};
 
 use super::document::{MotionLayer, Scene, SceneError, SkeletonSource};
+use super::file_motion::FileMotion;
 
 /// What can be posed and baked of a scene.
 #[derive(Clone, Debug)]
@@ -24,7 +25,7 @@ pub struct Shot {
 struct Layer {
     start_secs: f64,
     clip_secs: [f64; 2],
-    motion: Arc<Motion>,
+    motion: FileMotion,
     /// Pairs of a joint of the motion and the scene's joint of its name.
     joints: Vec<(JointId, JointId)>,
 }
@@ -47,23 +48,22 @@ pub enum ShotError<E: std::error::Error + 'static> {
 }
 
 impl Shot {
-    /// Puts a scene together. `load` gives the motion of a file that the scene names; it is asked once
-    /// for each.
+    /// Puts a scene together. `load` gives what a file that the scene names plays; it is asked once for each.
     ///
     /// # Errors
     /// [`ShotError`] when a file cannot be had, the scene's joints are no skeleton, or a joint that is
     /// keyed does not exist.
-    pub fn new<E: std::error::Error + 'static>(
+    pub fn new<M: Into<FileMotion>, E: std::error::Error + 'static>(
         scene: &Scene,
-        mut load: impl FnMut(&str) -> Result<Arc<Motion>, E>,
+        mut load: impl FnMut(&str) -> Result<M, E>,
     ) -> Result<Self, ShotError<E>> {
-        let mut motions: Vec<(&str, Arc<Motion>)> = Vec::new();
+        let mut motions: Vec<(&str, FileMotion)> = Vec::new();
         for path in scene.files() {
             let motion = load(path).map_err(|error| ShotError::File {
                 path: path.to_owned(),
                 error,
             })?;
-            motions.push((path, motion));
+            motions.push((path, motion.into()));
         }
         let motion = |path: &str| {
             motions
@@ -136,8 +136,8 @@ impl Shot {
         let mut moving: Vec<JointId> = self.skeleton.roots().collect();
         moving.extend(self.animation.translations().map(|(joint, _)| joint));
         for layer in &self.layers {
-            let moves = |id: JointId| layer.motion.translated_joints().binary_search(&id).is_ok();
-            let theirs = layer.joints.iter().filter(|(from, _)| moves(*from));
+            let theirs = layer.joints.iter();
+            let theirs = theirs.filter(|(from, _)| layer.motion.translates(*from));
             moving.extend(theirs.map(|&(_, to)| to));
         }
         let skeleton = Arc::clone(&self.skeleton);
@@ -153,7 +153,7 @@ impl Shot {
 }
 
 impl Layer {
-    fn new(layer: &MotionLayer, motion: &Arc<Motion>, skeleton: &Skeleton) -> Self {
+    fn new(layer: &MotionLayer, motion: &FileMotion, skeleton: &Skeleton) -> Self {
         let theirs = motion.skeleton();
         let matched = theirs.joints().filter_map(|joint| {
             let ours = skeleton.find(theirs.unique_name(joint))?;
@@ -161,9 +161,9 @@ impl Layer {
         });
         Self {
             start_secs: layer.start_secs,
-            clip_secs: layer.clip_secs.unwrap_or([0.0, motion.duration_secs()]),
+            clip_secs: layer.clip_secs.unwrap_or_else(|| motion.range_secs()),
             joints: matched.collect(),
-            motion: Arc::clone(motion),
+            motion: motion.clone(),
         }
     }
 

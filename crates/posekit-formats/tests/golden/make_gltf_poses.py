@@ -1,11 +1,12 @@
 """Where the joints of glTF files are, at rest and in their animations, by NumPy and nothing of ours.
 
-Writes gltf_poses.json: for the real rigs of ../shared/data/rigs and for spline.gltf, which it makes, where
-every joint of the first skin is in the world. Whole 4 x 4 matrices with all scales are multiplied down from
+Writes gltf_poses.json: for the real rigs of ../shared/data/rigs, the small inputs of ../shared/cases, and for
+spline.gltf and sparse.gltf, which it makes, where every joint of the first skin (every node, where there is none) is in
+the world. Whole 4 x 4 matrices with all scales are multiplied down from
 the scene's roots, as section 3.5.3 of the glTF 2.0 specification says; animations are sampled as appendix C
 says, each sampler by its own few lines.
 
-    python3 make_gltf_poses.py ../../../../../shared/data/rigs
+    python3 make_gltf_poses.py ../../../../../shared
 """
 
 import base64
@@ -18,6 +19,7 @@ import numpy as np
 
 HERE = pathlib.Path(__file__).parent
 TYPES = {5120: ("i1", 127.0), 5121: ("u1", 255.0), 5122: ("<i2", 32767.0), 5123: ("<u2", 65535.0), 5126: ("<f4", None)}
+INDICES = {5121: "u1", 5123: "<u2", 5125: "<u4"}
 WIDTHS = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}
 # File, and what of its animations is sampled: name and times in seconds.
 RIGS = {
@@ -25,6 +27,13 @@ RIGS = {
     "rig-fox.glb": [],
     "fox-animations.glb": [("Bark", [0.0, 0.31, 0.9]), ("Howl", [0.777])],
     "knight.glb": [("1H_Melee_Attack_Chop", [0.0, 0.4567]), ("Walking_A", [0.1, 0.71])],
+}
+CASES = {
+    "cubic_rotation.gltf": [("Swing", [0.0, 0.3, 0.5, 1.0])],
+    "cubic_sign.gltf": [("Swing", [0.0, 0.25, 0.5, 0.9, 1.0])],
+    "mirror_scale.gltf": [("Wave", [0.0, 0.5, 1.0])],
+    "mixamo_like.gltf": [("mixamo.com", [0.0, 0.25, 1.0])],
+    "step_keys.gltf": [("Snap", [0.0, 0.2, 0.25, 0.6]), ("Late", [0.0, 2.0, 2.5, 3.0])],
 }
 
 
@@ -40,13 +49,22 @@ def load(path):
 
 def accessor(document, binary, index):
     said = document["accessors"][index]
-    view = document["bufferViews"][said["bufferView"]]
     kind, most = TYPES[said["componentType"]]
     width = WIDTHS[said["type"]]
-    start = view.get("byteOffset", 0) + said.get("byteOffset", 0)
-    stride = view.get("byteStride", width * np.dtype(kind).itemsize)
-    rows = [np.frombuffer(binary, kind, width, start + row * stride) for row in range(said["count"])]
-    numbers = np.array(rows, dtype=np.float64)
+
+    def rows(of, kind, width, count):
+        view = document["bufferViews"][of["bufferView"]]
+        start = view.get("byteOffset", 0) + of.get("byteOffset", 0)
+        stride = view.get("byteStride", width * np.dtype(kind).itemsize)
+        return np.array([np.frombuffer(binary, kind, width, start + row * stride) for row in range(count)])
+
+    numbers = np.zeros((said["count"], width))
+    if "bufferView" in said:
+        numbers = rows(said, kind, width, said["count"]).astype(np.float64)
+    if "sparse" in said:
+        sparse = said["sparse"]
+        places = rows(sparse["indices"], INDICES[sparse["indices"]["componentType"]], 1, sparse["count"])
+        numbers[places[:, 0]] = rows(sparse["values"], kind, width, sparse["count"])
     return numbers if most is None else np.maximum(numbers / most, -1.0)
 
 
@@ -114,7 +132,7 @@ def positions(document, binary, animation=None, time=0.0):
         above = world(parents[index]) if index in parents else np.eye(4)
         return above @ matrix(nodes[index])
 
-    joints = document["skins"][0]["joints"]
+    joints = document["skins"][0]["joints"] if "skins" in document else range(len(nodes))
     return {nodes[joint]["name"]: [round(float(x), 6) for x in world(joint)[:3, 3]] for joint in joints}
 
 
@@ -181,6 +199,71 @@ def make_spline(path):
     path.write_text(json.dumps(document, indent=1) + "\n")
 
 
+def make_sparse(path):
+    """Sparse accessors of all kinds of index, over a view and over none; keys whose signs go the long way; late keys."""
+    random = np.random.default_rng(21)
+    binary, views, accessors = b"", [], []
+
+    def view(numbers, kind):
+        nonlocal binary
+        data = np.asarray(numbers).astype(kind).tobytes()
+        views.append({"buffer": 0, "byteOffset": len(binary), "byteLength": len(data)})
+        binary += data + b"\0" * (-len(data) % 4)
+        return len(views) - 1
+
+    def add(count, width, base=None, places=None, values=None, index=5121):
+        said = {"componentType": 5126, "type": width, "count": count}
+        if base is not None:
+            said["bufferView"] = view(base, "<f4")
+        if places is not None:
+            said["sparse"] = {
+                "count": len(places),
+                "indices": {"bufferView": view(places, INDICES[index]), "componentType": index},
+                "values": {"bufferView": view(values, "<f4")},
+            }
+        accessors.append(said)
+        return len(accessors) - 1
+
+    # Blender's times after a BVH import: the first is at 1/24 s.
+    times = np.arange(1, 6) / 24
+    turns = random.normal(0, 1, (5, 4))
+    turns /= np.linalg.norm(turns, axis=1)[:, None]
+    cubic = np.zeros((15, 4))
+    cubic[1::3] = turns
+    cubic[0::3] = random.normal(0, 6, (5, 4))
+    cubic[2::3] = random.normal(0, 6, (5, 4))
+    wrong = cubic.copy()
+    wrong[[1, 5, 9]] = 0.5
+    samplers = [
+        {"input": add(5, "SCALAR", times), "output": add(15, "VEC4", wrong, [1, 5, 9], cubic[[1, 5, 9]], 5123),
+         "interpolation": "CUBICSPLINE"},
+        {"input": add(5, "SCALAR", times * 0 + 1, [0, 1, 2, 3, 4], times, 5125),
+         "output": add(5, "VEC3", None, [2, 3], random.normal(0, 1, (2, 3)), 5121)},
+        # No view at all: zeros.
+        {"input": add(5, "SCALAR", times), "output": add(5, "VEC3")},
+    ]
+    document = {
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+        "extensionsUsed": ["KHR_materials_unlit"], "extensionsRequired": ["KHR_materials_unlit"],
+        "nodes": [
+            {"name": "base", "translation": [0.0, 1.0, 0.0], "children": [1]},
+            {"name": "middle", "translation": [0.5, 0.5, 0.0], "children": [2]},
+            {"name": "end", "translation": [0.0, 1.0, 0.0], "children": [3]},
+            {"name": "tip", "translation": [0.2, 0.0, 0.3]},
+        ],
+        "animations": [{
+            "name": "sparse", "samplers": samplers,
+            "channels": [
+                {"sampler": sampler, "target": {"node": node, "path": where}}
+                for sampler, node, where in [(0, 0, "rotation"), (1, 1, "translation"), (2, 2, "translation")]
+            ],
+        }],
+        "accessors": accessors, "bufferViews": views,
+        "buffers": [{"byteLength": len(binary), "uri": "data:application/octet-stream;base64," + base64.b64encode(binary).decode()}],
+    }
+    path.write_text(json.dumps(document, indent=1) + "\n")
+
+
 def poses(path, wanted):
     document, binary = load(path)
     by_name = {animation.get("name"): animation for animation in document.get("animations", [])}
@@ -194,9 +277,13 @@ def poses(path, wanted):
 
 
 def main():
+    shared = pathlib.Path(sys.argv[1])
     make_spline(HERE / "spline.gltf")
-    out = {name: poses(pathlib.Path(sys.argv[1]) / name, wanted) for name, wanted in RIGS.items()}
+    make_sparse(HERE / "sparse.gltf")
+    out = {name: poses(shared / "data" / "rigs" / name, wanted) for name, wanted in RIGS.items()}
+    out |= {name: poses(shared / "cases" / name, wanted) for name, wanted in CASES.items()}
     out["spline.gltf"] = poses(HERE / "spline.gltf", [("all kinds", [-1.0, 0.0, 0.13, 0.4, 0.77, 1.3, 1.5, 9.0])])
+    out["sparse.gltf"] = poses(HERE / "sparse.gltf", [("sparse", [0.0, 1 / 24, 0.06, 0.1, 0.13, 0.19, 1.0])])
     lines = [f"{json.dumps(name)}: {json.dumps(value)}" for name, value in out.items()]
     (HERE / "gltf_poses.json").write_text("{\n" + ",\n".join(lines) + "\n}\n")
 

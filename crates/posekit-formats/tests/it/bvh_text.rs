@@ -1,7 +1,7 @@
 //! Small BVH texts for tests, and short ways to read them.
 
 use posekit_formats::bvh::{self, Bvh};
-use posekit_formats::report::{Import, ReadError, ReadErrorKind, WarningCode};
+use posekit_formats::report::{Import, Location, Place, ReadError, ReadErrorKind, WarningCode};
 
 /// A sound two-joint file whose rows have four values.
 pub(crate) const HEAD: &str = "HIERARCHY
@@ -67,8 +67,15 @@ pub(crate) fn assert_at(
         .iter()
         .find(|warning| warning.code == code)
         .unwrap();
-    assert_eq!((warning.line, warning.column), (line, column), "{warning}");
+    let place = Place::Text(Location { line, column });
+    assert_eq!(warning.place, place, "{warning}");
     assert!(warning.message.contains(words), "{warning}");
+}
+
+/// The line and column of an error.
+pub(crate) fn place(error: &ReadError) -> (usize, usize) {
+    let location = error.place.location().expect("a place in a text");
+    (location.line, location.column)
 }
 
 /// The text is refused for this reason, at this place.

@@ -18,8 +18,13 @@ fn golden() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden")
 }
 
+fn shared(folder: &str) -> PathBuf {
+    let shared = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared");
+    shared.join(folder)
+}
+
 fn rigs() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/rigs")
+    shared("data/rigs")
 }
 
 fn check(file: &str, document: &Gltf, pose: &GlobalPose, wanted: &Value, tolerance: f32) {
@@ -41,10 +46,10 @@ fn joints_are_where_numpy_puts_them() {
     let text = std::fs::read_to_string(golden().join("gltf_poses.json")).unwrap();
     let wanted: Value = serde_json::from_str(&text).unwrap();
     for (file, poses) in wanted.as_object().unwrap() {
-        let folder = if file == "spline.gltf" {
-            golden()
-        } else {
-            rigs()
+        let folder = match file.as_str() {
+            "spline.gltf" | "sparse.gltf" => golden(),
+            _ if file.ends_with(".gltf") => shared("cases"),
+            _ => rigs(),
         };
         let Ok(bytes) = std::fs::read(folder.join(file)) else {
             eprintln!("skipped: {file} is not there");
@@ -101,6 +106,33 @@ fn an_animation_is_baked_from_zero_to_its_last_key_at_the_rate_of_its_keys() {
     }
     for rate in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e12] {
         assert!(animation.bake(rate).is_err(), "{rate}");
+    }
+}
+
+#[test]
+fn an_animation_starts_with_its_first_key() {
+    let bytes = std::fs::read(golden().join("sparse.gltf")).unwrap();
+    let import = gltf::read(&bytes).unwrap();
+    let told: Vec<_> = import
+        .report
+        .warnings
+        .iter()
+        .map(ToString::to_string)
+        .collect();
+    assert_eq!(
+        told,
+        [
+            "animations[0]: the first key of `sparse` is at 0.0417 s; it starts there [late-first-key]"
+        ]
+    );
+    let animation = &import.document.animations[0];
+    assert_eq!(animation.frames_per_sec(), 24.0);
+    let motion = animation.bake(24.0).unwrap();
+    assert_eq!(motion.frame_count(), 5);
+    let wanted = animation.tracks.sample(3.0 / 24.0);
+    let found = motion.pose(2);
+    for (found, wanted) in found.rotations.iter().zip(&wanted.rotations) {
+        assert!(found.dot(*wanted).abs() > 0.999_999_9, "{found} {wanted}");
     }
 }
 

@@ -1,8 +1,8 @@
 //! glTF files as they should not be: what is read of them, what is warned of and where, and what is refused.
 
 use glam::Vec3;
-use posekit_formats::gltf::{self, Gltf};
-use posekit_formats::report::{Import, ReadError, ReadErrorKind};
+use posekit_formats::gltf::{self, Gltf, Wanted};
+use posekit_formats::report::{Import, Place, ReadError, ReadErrorKind};
 
 /// A file of these nodes and whatever else is given.
 fn with(nodes: &str, more: &str) -> String {
@@ -25,37 +25,81 @@ fn codes(import: &Import<Gltf>) -> Vec<&'static str> {
 #[test]
 fn what_makes_no_tree_is_refused_with_its_place() {
     let cases = [
-        (r#"{"children": [0]}"#, ReadErrorKind::NotATree, (2, 11)),
+        (r#"{"children": [0]}"#, ReadErrorKind::NotATree, "nodes[0]"),
         (
             r#"{"children": [1]}, {"children": [0]}"#,
             ReadErrorKind::NotATree,
-            (2, 11),
+            "nodes[0]",
         ),
         (
             r#"{"children": [1, 1]}, {}"#,
             ReadErrorKind::NotATree,
-            (2, 28),
+            "nodes[0].children[1]",
         ),
-        (r#"{"children": [7]}"#, ReadErrorKind::UnknownName, (2, 25)),
-        ("", ReadErrorKind::Unexpected, (1, 1)),
+        (
+            r#"{"children": [7]}"#,
+            ReadErrorKind::UnknownName,
+            "nodes[0].children[0]",
+        ),
+        ("", ReadErrorKind::Unexpected, ""),
         (
             r#"{"translation": [1e300, 0, 0]}"#,
             ReadErrorKind::NotFinite,
-            (2, 10),
+            "nodes",
+        ),
+        (
+            r#"{}, {"rotation": [0, "no", 0, 1]}"#,
+            ReadErrorKind::Unexpected,
+            "nodes[1].rotation[1]",
         ),
     ];
-    for (nodes, kind, (line, column)) in cases {
+    for (nodes, kind, path) in cases {
         let error = refused(nodes, "");
         assert_eq!(error.kind, kind, "{nodes}: {error}");
-        assert_eq!(
-            (error.location.line, error.location.column),
-            (line, column),
-            "{nodes}: {error}"
-        );
+        assert_eq!(error.place, Place::Json(path.into()), "{nodes}: {error}");
     }
     let error = refused("{}", ",\n\"skins\": [{\"joints\": [3]}]");
     assert_eq!(error.kind, ReadErrorKind::UnknownName);
-    assert_eq!((error.location.line, error.location.column), (3, 23));
+    assert_eq!(error.place.to_string(), "skins[0].joints[0]");
+}
+
+#[test]
+fn what_is_broken_is_placed_by_its_byte() {
+    let place = |bytes: &[u8]| gltf::read(bytes).unwrap_err().place;
+    assert_eq!(place(b"{\n \"asset\": ]"), Place::Byte(12));
+    assert_eq!(place(b"\xef\xbb\xbf{\n \"asset\": ]"), Place::Byte(15));
+    let binary = b"glTF\x02\0\0\0\x20\0\0\0\x05\0\0\0JSON{\"a\",";
+    assert_eq!(place(binary), Place::Byte(24));
+    assert_eq!(place(b"glTF\x01\0\0\0\0\0\0\0"), Place::Byte(4));
+}
+
+#[test]
+fn a_required_extension_that_may_move_joints_is_refused_by_its_name() {
+    let asks = |names: &str| with("{}", &format!(", \"extensionsRequired\": [{names}]"));
+    for name in [
+        "EXT_meshopt_compression",
+        "KHR_meshopt_compression",
+        "KHR_animation_pointer",
+        "ACME_bones",
+    ] {
+        let text = asks(&format!("\"KHR_texture_transform\", \"{name}\""));
+        let error = gltf::read(text.as_bytes()).unwrap_err();
+        assert_eq!(error.kind, ReadErrorKind::UnknownExtension);
+        assert_eq!(error.place.to_string(), "extensionsRequired[1]");
+        assert!(error.found.contains(name), "{error}");
+    }
+    for name in [
+        "KHR_draco_mesh_compression",
+        "KHR_mesh_quantization",
+        "KHR_materials_unlit",
+        "KHR_texture_basisu",
+        "EXT_texture_webp",
+    ] {
+        let import = gltf::read(asks(&format!("\"{name}\"")).as_bytes());
+        assert!(import.is_ok(), "{name}");
+    }
+    let used = with("{}", ", \"extensionsUsed\": [\"ACME_bones\"]");
+    assert!(gltf::read(used.as_bytes()).is_ok());
 }
 
 #[test]
@@ -95,7 +139,9 @@ fn every_liberty_is_a_warning() {
         ),
         (r#"{"name": "a", "scale": [2, 2, 2]}"#, &["node-scale"]),
         (r#"{"name": "a", "scale": [1, 2, 1]}"#, &["uneven-scale"]),
-        (r#"{"name": "a", "scale": [-1, -1, -1]}"#, &["uneven-scale"]),
+        (r#"{"name": "a", "scale": [-1, -1, -1]}"#, &["node-scale"]),
+        (r#"{"name": "a", "scale": [0, 0, 0]}"#, &["uneven-scale"]),
+        (r#"{"name": "a", "scale": [-1, 1, 1]}"#, &["uneven-scale"]),
         (
             r#"{"name": "a", "matrix": [0,0,0,0, 0,0,0,0, 0,0,0,0, 1,2,3,1]}"#,
             &["uneven-scale"],
@@ -218,13 +264,97 @@ fn channels_that_make_no_sense_are_left_out() {
         (ACCESSORS, [0.0, f32::NAN, 1.0]),
         ("", ordered),
     ];
+    // Three times out of nothing are three zeros, which do not rise; the other counts are promises.
+    let no_view = [3, 1 << 40].map(|count| {
+        let first = r#""bufferView": 0, "#;
+        let counted = format!("\"count\": {count}}},");
+        ACCESSORS
+            .replace(first, "")
+            .replace("\"count\": 3},", &counted)
+    });
+    let cases = cases.into_iter();
+    let cases = cases.chain(
+        no_view
+            .iter()
+            .map(|accessors| (accessors.as_str(), ordered)),
+    );
     for (accessors, times) in cases {
         let text = with(r#"{"name": "a"}"#, &animated("b.bin", accessors));
         let import = gltf::read_with(text.as_bytes(), |_| Some(numbers(times))).unwrap();
         assert_eq!(codes(&import), ["unreadable-track"], "{accessors}");
         let warning = &import.report.warnings[0];
-        assert_eq!(warning.line, 3, "{warning}");
+        let place = Place::Json("animations[0].channels[0]".into());
+        assert_eq!(warning.place, place, "{warning}");
     }
+}
+
+/// The accessors, the first of them with one sparse time.
+fn sparse(count: u64, index_type: u32, index_offset: u64, value_offset: u64) -> String {
+    let said = format!(
+        r#""count": 3, "sparse": {{"count": {count},
+        "indices": {{"bufferView": 1, "byteOffset": {index_offset}, "componentType": {index_type}}},
+        "values": {{"bufferView": 1, "byteOffset": {value_offset}}}}}}},"#
+    );
+    ACCESSORS.replacen("\"count\": 3},", &said, 1)
+}
+
+#[test]
+fn sparse_accessors_that_make_no_sense_are_left_out() {
+    let mut bytes = numbers([0.0, 0.5, 1.0]);
+    // The second view: the indices 2, 1 and 9, then the value 4.
+    bytes[12..20].copy_from_slice(&[2, 1, 9, 0, 0, 0, 0x80, 0x40]);
+    let read = |accessors: &str| {
+        let text = with(r#"{"name": "a"}"#, &animated("b.bin", accessors));
+        gltf::read_with(text.as_bytes(), |_| Some(bytes.clone())).unwrap()
+    };
+    let import = read(&sparse(1, 5121, 0, 4));
+    assert!(import.report.is_empty(), "{:?}", import.report);
+    let range = import.document.animations[0].tracks.range_secs();
+    assert_eq!(range, Some([0.0, 4.0]));
+    for (wrong, why) in [
+        (sparse(2, 5121, 0, 4), "do not rise"),
+        (sparse(1, 5121, 2, 4), "beyond its 3 elements"),
+        (sparse(1, 5126, 0, 4), "component type"),
+        (sparse(1 << 60, 5125, 0, 4), "beyond their buffer"),
+        (sparse(1, 5121, u64::MAX, 4), "beyond their buffer"),
+        (sparse(1, 5121, 0, 36), "beyond their buffer"),
+    ] {
+        let import = read(&wrong);
+        assert_eq!(codes(&import), ["unreadable-track"], "{wrong}");
+        let warning = import.report.warnings[0].to_string();
+        assert!(warning.contains(why), "{warning}");
+    }
+}
+
+#[test]
+fn only_what_is_wanted_is_read_and_told_of() {
+    let animation = |name: &str| {
+        format!(
+            r#"{{"name": "{name}", "samplers": [{{"input": 0, "output": 1}}],
+            "channels": [{{"sampler": 0, "target": {{"node": 0, "path": "scale"}}}}]}}"#
+        )
+    };
+    let text = with(
+        r#"{"name": "a"}"#,
+        &format!(", \"animations\": [{}, {}]", animation("x"), animation("y")),
+    );
+    let read = |wanted| gltf::read_wanted(text.as_bytes(), wanted, |_| None);
+    let places = |wanted| {
+        let report = read(wanted).unwrap().report;
+        let places = report.warnings.iter().map(|w| w.place.to_string());
+        places.collect::<Vec<_>>()
+    };
+    let [first, second] = [0, 1].map(|index| format!("animations[{index}].channels[0]"));
+    assert_eq!(places(Wanted::All), [first.clone(), second.clone()]);
+    assert_eq!(places(Wanted::First), [first]);
+    assert_eq!(places(Wanted::Named("y")), [second]);
+    assert!(places(Wanted::Skeleton).is_empty());
+    let error = read(Wanted::Named("z")).unwrap_err();
+    assert_eq!(error.kind, ReadErrorKind::UnknownName);
+    assert_eq!(
+        error.to_string(),
+        "animations: expected an animation `z`, found `x`, `y`"
+    );
 }
 
 #[test]

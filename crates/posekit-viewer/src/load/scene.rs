@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use posekit_formats::scene::{self, motion_of};
+use posekit_formats::gltf::file_and_animation;
+use posekit_formats::report::ImportReport;
+use posekit_formats::scene::{self, import_of};
 
 use crate::state::animate::{Authored, Files, place};
 use crate::state::clip::{Clip, Source};
@@ -32,13 +34,15 @@ pub fn read_scene(
         Some(folder) => place::opened(&read, folder),
         None => read,
     };
-    let authored = authored_of(name, scene, bytes_of)?.in_file(path.clone());
+    let (authored, report) = authored_of(name, scene, bytes_of)?;
+    let authored = authored.in_file(path.clone());
     let mut clip = Clip::from_motion(name, authored.bake());
     clip.source = Source::Scene(path);
+    clip.report = report;
     Ok((clip, authored))
 }
 
-/// A scene and its files, which are told by where they are.
+/// A scene and its files, which are told by where they are, and what the readers of the files noticed.
 ///
 /// # Errors
 /// What is wrong, for people.
@@ -46,14 +50,20 @@ pub fn authored_of(
     name: &str,
     scene: posekit_formats::scene::Scene,
     bytes_of: impl Fn(&str) -> Result<Vec<u8>, String>,
-) -> Result<Authored, String> {
+) -> Result<(Authored, ImportReport), String> {
     let mut files = Files::new();
-    for file in scene.files() {
-        let motion = motion_of(file, |file| bytes_of(file))
-            .map_err(|error| format!("{name}: {file}: {error}"))?;
-        files.insert(file.to_owned(), motion);
+    let mut report = ImportReport::default();
+    for named in scene.files() {
+        let import = import_of(named, scene.role_of(named), |file| bytes_of(file))
+            .map_err(|error| format!("{name}: {named}: {error}"))?;
+        files.insert(named.to_owned(), import.document);
+        let (file, _) = file_and_animation(named);
+        // Files of an open scene go by their whole path.
+        let shown = file.rsplit(['/', '\\']).next().unwrap_or(file);
+        report.take_in(shown, import.report);
     }
-    Authored::new(scene, files).map_err(|error| format!("{name}: {error}"))
+    let authored = Authored::new(scene, files).map_err(|error| format!("{name}: {error}"))?;
+    Ok((authored, report))
 }
 
 /// The bytes of a file among some that came together, known by their names alone.

@@ -387,7 +387,10 @@ fn report(ui: &mut Ui, clip: &Clip) {
         );
     });
     for warning in &clip.report.warnings {
-        let place = format!("line {}", warning.line);
+        let place = match &warning.file {
+            Some(file) => format!("{file}, {}", warning.place),
+            None => warning.place.to_string(),
+        };
         ui.label(RichText::new(place).small().color(palette.quiet));
         let times = if warning.count > 1 {
             format!(" ({} times)", warning.count)

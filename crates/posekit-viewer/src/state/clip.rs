@@ -94,7 +94,10 @@ impl Clip {
         self.document = Arc::new(Bvh::from_motion(&motion, EulerOrder::ZXY));
         self.global = Arc::new(motion.to_global());
         self.motion = motion;
-        self.report = ImportReport::default();
+        // What was wrong with its own text is gone with it; the files that a scene names are as they were.
+        self.report
+            .warnings
+            .retain(|warning| warning.file.is_some());
     }
 
     fn new(

@@ -75,10 +75,11 @@ impl Kept {
         bytes_of: impl Fn(&str) -> Result<Vec<u8>, String>,
     ) -> Result<ReadScene, String> {
         let read = scene::read(self.text.as_bytes()).map_err(|error| error.in_file(&self.name))?;
-        let mut authored = authored_of(&self.name, read, bytes_of)?;
+        let (mut authored, report) = authored_of(&self.name, read, bytes_of)?;
         authored.set_path(self.path.clone());
         let mut clip = Clip::from_motion(self.name.as_str(), authored.bake());
         clip.source = Source::Scene(self.path.clone());
+        clip.report = report;
         Ok((clip, authored))
     }
 }

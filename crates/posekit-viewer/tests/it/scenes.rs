@@ -63,6 +63,34 @@ fn what_is_wrong_with_a_scene_is_told_with_its_place() {
     );
 }
 
+#[test]
+fn what_the_reader_of_a_named_file_noticed_is_told_and_stays() {
+    let named = |name: &str, text: &str| Input::Bytes {
+        name: name.into(),
+        bytes: text.as_bytes().into(),
+    };
+    let scene = "format = \"posekit scene\"\nversion = 1\nrange_secs = [0, 1]\nskeleton = { file = \"rig.gltf\" }\nmotion = [{ file = \"rig.gltf\" }]\n";
+    let rig = r#"{"asset": {"version": "2.0"}, "nodes": [{"name": "a", "children": [1]}, {"name": "b", "translation": [0, 1, 0]}],
+        "animations": [{"samplers": [{"input": 0, "output": 1}], "channels": [{"sampler": 0, "target": {"node": 0, "path": "rotation"}}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "type": "SCALAR", "count": 1}, {"bufferView": 0, "componentType": 5126, "type": "VEC4", "count": 1}],
+        "bufferViews": [{"buffer": 0, "byteLength": 16}], "buffers": [{"byteLength": 16, "uri": "gone.bin"}]}"#;
+    let window = laptop(vec![
+        named("shot.posekit.toml", scene),
+        named("rig.gltf", rig),
+    ]);
+    let told = viewer(&window).notices().shown();
+    let wanted = "rig.gltf: buffers[0]: buffer 0 (`gone.bin`) is missing";
+    assert!(
+        told.iter().any(|notice| notice.text.contains(wanted)),
+        "{told:?}"
+    );
+    let clip = &viewer(&window).session().clips()[0].clip;
+    let codes: Vec<_> = clip.report.warnings.iter().map(|w| w.code.code()).collect();
+    assert_eq!(codes, ["missing-buffer", "unreadable-track"]);
+    let shown = window.query_all_by_label_contains("gone.bin");
+    assert!(shown.count() > 0);
+}
+
 /// A window that keeps what is not saved in a folder.
 fn kept_in(folder: &Path, inputs: Vec<Input>) -> Window {
     let mut options = Some(ViewerOptions {

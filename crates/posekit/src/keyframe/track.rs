@@ -112,7 +112,7 @@ impl<V: KeyValue> Segment<V> {
 /// Between two keys the value follows the first one's [`Interpolation`]; before the first and after
 /// the last one it follows the [`Extrapolation`]s. Orientations take the short way from each key to
 /// the next whatever the signs of their quaternions: the signs are put right over the whole track once,
-/// tangents with them.
+/// tangents with them. [`with_signs_as_given`](Self::with_signs_as_given) makes one that does not.
 ///
 /// A track is a value: editing makes a new one (see [`edit`](super::edit)).
 ///
@@ -133,8 +133,18 @@ pub struct Track<V: KeyValue> {
     keys: Vec<Keyframe<V>>,
     before: Extrapolation,
     after: Extrapolation,
+    signs: Signs,
     times: Vec<f64>,
     knots: Vec<Knot<V>>,
+}
+
+/// Which of the two quaternions of an orientation a curve goes through.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Signs {
+    /// The one on the short side of the key before.
+    Short,
+    /// The one that the key has.
+    Given,
 }
 
 impl<V: KeyValue> Track<V> {
@@ -156,13 +166,37 @@ impl<V: KeyValue> Track<V> {
         before: Extrapolation,
         after: Extrapolation,
     ) -> Result<Self, TrackError> {
+        Self::build(keys, [before, after], Signs::Short)
+    }
+
+    /// A track of orientations whose quaternions keep their signs, as `CUBICSPLINE` in glTF 2.0 has it: a cubic goes
+    /// from key to key as the signs and the tangents say, if need be the long way. (Straight ways are the short ones
+    /// even so.) For numbers and vectors it is [`new`](Self::new).
+    ///
+    /// The signs are kept as long as the track is; one that [`edit`](super::edit) makes of it goes the short ways.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_signs_as_given(
+        keys: Vec<Keyframe<V>>,
+        beyond: Extrapolation,
+    ) -> Result<Self, TrackError> {
+        Self::build(keys, [beyond; 2], Signs::Given)
+    }
+
+    fn build(
+        keys: Vec<Keyframe<V>>,
+        [before, after]: [Extrapolation; 2],
+        signs: Signs,
+    ) -> Result<Self, TrackError> {
         check(&keys)?;
         let times = keys.iter().map(|key| key.time_secs).collect();
         let mut track = Self {
-            knots: knots_without_controls(&keys),
+            knots: knots_without_controls(&keys, signs),
             keys,
             before,
             after,
+            signs,
             times,
         };
         for start in 0..track.keys.len() - 1 {
@@ -500,13 +534,13 @@ impl<V: KeyValue> Track<V> {
     }
 }
 
-/// The keys' values at unit length, each on the short side of the one before.
-fn knots_without_controls<V: KeyValue>(keys: &[Keyframe<V>]) -> Vec<Knot<V>> {
+/// The keys' values at unit length, each with the sign that it is to have.
+fn knots_without_controls<V: KeyValue>(keys: &[Keyframe<V>], signs: Signs) -> Vec<Knot<V>> {
     let mut knots: Vec<Knot<V>> = Vec::with_capacity(keys.len());
     for key in keys {
         let given = key.value.normalized();
         let previous = knots.last().map(|knot| knot.value);
-        let value = match previous {
+        let value = match previous.filter(|_| signs == Signs::Short) {
             Some(previous) if given.is_far_side(previous) => given.scaled(-1.0),
             _ => given,
         };

@@ -6,7 +6,7 @@ use std::io::Write;
 use clap::{Args, ValueEnum};
 use posekit::check::{CheckConfig, FindingCode, Severity};
 use posekit_formats::bvh::{self, CheckEntry};
-use posekit_formats::report::WarningCode;
+use posekit_formats::report::{Location, WarningCode};
 use serde_json::{Value, json};
 
 use crate::args::Global;
@@ -247,6 +247,10 @@ fn file_text(args: &CheckArgs, min: Minimum, name: &str, checked: &Checked) -> S
     }
 }
 
+fn location(entry: &CheckEntry) -> Option<Location> {
+    entry.place.as_ref()?.location()
+}
+
 fn json_line(name: &str, entries: &[&CheckEntry]) -> String {
     let findings: Vec<Value> = entries.iter().map(|entry| finding_object(entry)).collect();
     format!("{}\n", json!({ "file": name, "findings": findings }))
@@ -261,8 +265,10 @@ fn finding_object(entry: &CheckEntry) -> Value {
             "first": frames.first,
             "last": frames.last,
         })),
-        "line": entry.location.map(|location| location.line),
-        "column": entry.location.map(|location| location.column),
+        "file": entry.file,
+        "line": location(entry).map(|location| location.line),
+        "column": location(entry).map(|location| location.column),
+        "place": entry.place.as_ref().map(ToString::to_string),
         "value": entry.value,
         "unit": entry.unit.name(),
         "share_of_height": entry.share_of_height,

@@ -64,7 +64,8 @@ impl Counts {
 
 /// Whether `posekit fix` repairs what an entry is about: what the reader had to put right, and flips.
 pub(super) fn is_fixable(entry: &CheckEntry) -> bool {
-    let was_repaired = entry.location.is_some()
+    let was_repaired = entry.file.is_none()
+        && entry.place.is_some()
         && entry.severity == Severity::Warning
         && entry.code != WarningCode::BadFrameTime.code();
     was_repaired || entry.code == FindingCode::EulerFlip.code()
@@ -143,8 +144,11 @@ fn lines<'a>(entries: &[&'a CheckEntry]) -> Vec<Line<'a>> {
 
 /// Where it is: a line of the file, or frames.
 pub(super) fn place(entry: &CheckEntry) -> String {
-    match (entry.location, entry.frames) {
-        (Some(location), _) => location.to_string(),
+    match (&entry.place, entry.frames) {
+        (Some(place), _) => match &entry.file {
+            Some(file) => one_line(&format!("{file}, {place}")),
+            None => place.to_string(),
+        },
         (None, Some(frames)) => frames.to_string(),
         (None, None) => String::new(),
     }

@@ -100,8 +100,10 @@ pub(super) fn notice_object(notice: &Warning) -> Value {
             Severity::Note => "note",
             Severity::Warning => "warning",
         },
-        "line": notice.line,
-        "column": notice.column,
+        "file": notice.file,
+        "line": notice.place.location().map(|location| location.line),
+        "column": notice.place.location().map(|location| location.column),
+        "place": notice.place.to_string(),
         "message": notice.message,
         "count": notice.count,
     })

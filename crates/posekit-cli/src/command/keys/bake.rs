@@ -6,12 +6,14 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use posekit::rotation::EulerOrder;
 use posekit_formats::bvh::{Bvh, WriteOptions, write_to};
+use posekit_formats::report::Import;
 
 use crate::args::Global;
 use crate::console;
 use crate::extension;
 use crate::failure::Failure;
 use crate::inputs::{Input, Inputs, Source};
+use crate::load;
 use crate::output::{Destination, Plan, write_whole};
 use crate::scene_file;
 use crate::text::counted;
@@ -56,7 +58,15 @@ pub(super) fn run(args: &BakeArgs, global: &Global) -> Result<(), Failure> {
             ));
         }
     }
-    let shot = scene_file::shot(&args.file, &scene)?;
+    let Import {
+        document: shot,
+        report,
+    } = scene_file::shot(&args.file, &scene)?;
+    let name = args.file.display().to_string();
+    load::refuse_repairs(&name, &report, global)?;
+    for warning in load::repair_lines(&name, &report.warnings) {
+        console::warning(&warning);
+    }
     let bvh = Bvh::from_motion(&shot.bake(args.fps), args.order);
     let input = Input {
         source: Source::File(args.file.clone()),

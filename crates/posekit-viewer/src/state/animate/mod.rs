@@ -26,7 +26,7 @@ use posekit::keyframe::Animation;
 use posekit::motion::Motion;
 use posekit::pose::LocalPose;
 use posekit::skeleton::{JointId, Skeleton};
-use posekit_formats::scene::{MotionFileError, Scene, Shot, ShotError};
+use posekit_formats::scene::{FileMotion, MotionFileError, Scene, Shot, ShotError};
 
 pub use lane::{KeyId, Lane, LaneTrack, LaneValue, Owner, TrackValue};
 pub use start::{Start, start};
@@ -35,8 +35,8 @@ use super::edit::{Gesture, History};
 use super::ik::Goals;
 use lane::{PropertyRef, put_track};
 
-/// Motions of files by the names that the scene has for them.
-pub type Files = BTreeMap<String, Arc<Motion>>;
+/// What files play, by the names that the scene has for them.
+pub type Files = BTreeMap<String, FileMotion>;
 
 /// All that is undone and redone.
 #[derive(Clone, Debug)]
@@ -418,7 +418,7 @@ impl Authored {
 
 fn shot_of(scene: &Scene, files: &Files) -> Result<Shot, ShotError<MotionFileError>> {
     Shot::new(scene, |name| {
-        let motion = files.get(name).map(Arc::clone);
+        let motion = files.get(name).cloned();
         motion.ok_or_else(|| MotionFileError("it was not read".to_owned()))
     })
 }

@@ -45,7 +45,7 @@ pub fn start(
     let named = file_name(clip);
     let mut scene = Scene::new(skeleton_source(clip, named.as_deref()));
     if let SkeletonSource::File(name) = &scene.skeleton {
-        files.insert(name.clone(), Arc::clone(motion));
+        files.insert(name.clone(), Arc::clone(motion).into());
     }
     scene.title = stem(&clip.name).to_owned();
     let rate = clip.fps();
@@ -70,7 +70,7 @@ pub fn start(
         }
         Start::OverMotion => {
             let file = named.unwrap_or_else(|| clip.name.clone());
-            files.insert(file.clone(), Arc::clone(motion));
+            files.insert(file.clone(), Arc::clone(motion).into());
             scene.motions.push(MotionLayer {
                 file,
                 start_secs: 0.0,
