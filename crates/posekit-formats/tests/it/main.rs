@@ -23,6 +23,7 @@ mod ik_course;
 mod ik_course_jacobian;
 mod poses;
 mod robot_arms;
+mod robot_ways;
 mod scene;
 mod urdf_damage;
 mod urdf_kinematics;

@@ -116,7 +116,7 @@ impl Viewer {
                 Space::Local => Space::World,
                 Space::Parent | Space::World => Space::Local,
             }),
-            Command::Solve => drop(bench.find_other_way()),
+            Command::Solve => drop(bench.take_next_way()),
             Command::ForgetTarget | Command::Deselect => bench.forget_target(),
             Command::ResetPose | Command::ToggleRest => bench.go_home(),
             // Time, clips and figures are on the stage, not here.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use egui::{Key, Modifiers, Pos2, Rect, Vec2, pos2};
 use egui_kittest::kittest::Queryable as _;
 use glam::{DQuat, DVec3};
+use posekit::ik::robot::WaysMethod;
 use posekit::rotation::Axis;
 use posekit_viewer::gizmo::{Handle, Viewport};
 use posekit_viewer::load::Input;
@@ -229,7 +230,7 @@ fn another_way_reaches_the_same_place() {
     for name in ["planar2", "arm6", "arm7"] {
         let mut bench = bench(name);
         let before = (bench.tip_frame(), bench.values().to_vec());
-        assert!(bench.find_other_way(), "{name}");
+        assert!(bench.take_next_way(), "{name}");
         let (frame, values) = before;
         assert!(bench.tip_frame().position.distance(frame.position) < 1e-5);
         if name != "planar2" {
@@ -250,6 +251,31 @@ fn another_way_reaches_the_same_place() {
         bench.undo();
         assert_eq!(bench.values(), values);
     }
+}
+
+#[test]
+fn the_ways_are_listed_and_stepped_through() {
+    let mut window = lab_with("arm6");
+    for _ in 0..3 {
+        window.get_by_label("Another way").click();
+        settle(&mut window);
+    }
+    let bench = bench_of(&window);
+    let ways = bench.ways().expect("they were looked for");
+    assert_eq!(ways.method, WaysMethod::SphericalWrist);
+    assert!(ways.ways.len() > 2);
+    // The first step leaves the first way, which is where the arm stood.
+    assert_eq!(bench.way_taken(), Some(3 % ways.ways.len()));
+    assert!(bench.is_reached(bench.miss().expect("asked")));
+    let count = ways.ways.len();
+    assert!(
+        window
+            .query_by_label(&format!("There are {count} ways:"))
+            .is_some()
+    );
+    window.get_by_label("Way 1").click();
+    settle(&mut window);
+    assert_eq!(bench_of(&window).way_taken(), Some(0));
 }
 
 #[test]

@@ -189,7 +189,6 @@ fn value(ui: &mut Ui, lab: &mut ArmLab, panel: &mut LabPanel, index: usize) {
         lab.work(Bench::begin_step);
     }
     if is_changed {
-        panel.no_other_way = false;
         lab.work(|bench| bench.set_value(index, wanted));
     }
 }

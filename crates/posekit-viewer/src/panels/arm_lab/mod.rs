@@ -54,8 +54,6 @@ pub struct LabPanel {
     pub detail: Detail,
     /// The joint whose slider the pointer is over.
     pub pointed: Option<JointId>,
-    /// Whether the last search for another way found none.
-    pub no_other_way: bool,
 }
 
 /// Shows the lab in all the room there is. Returns where the view is.
@@ -83,7 +81,7 @@ pub fn show(
             .resizable(true)
             .default_size(292.0)
             .size_range(260.0..=440.0)
-            .show(ui, |ui| numbers::show(ui, lab, panel));
+            .show(ui, |ui| numbers::show(ui, lab));
     }
     below::show(ui, lab, panel);
     let shown = CentralPanel::no_frame().show(ui, |ui| {

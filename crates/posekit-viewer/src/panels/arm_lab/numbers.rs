@@ -3,12 +3,11 @@
 use egui::{Button, ComboBox, RichText, ScrollArea, Sense, Ui, vec2};
 use glam::{DMat3, DQuat, DVec3};
 use posekit::ik::IkOutcome;
-use posekit::ik::robot::range_margins;
+use posekit::ik::robot::{WaysMethod, range_margins};
 use posekit::skeleton::JointId;
 
 use super::super::inspector::{line, part, values};
 use super::super::{row, tip};
-use super::LabPanel;
 use crate::command::Command;
 use crate::state::arm::bench::Miss;
 use crate::state::arm::mobility::{Hardest, Mobility, Singularity};
@@ -20,7 +19,7 @@ use crate::theme::{GAP, Palette};
 const NEAR_END: f64 = 0.08;
 
 /// Shows it.
-pub(super) fn show(ui: &mut Ui, lab: &mut ArmLab, panel: &mut LabPanel) {
+pub(super) fn show(ui: &mut Ui, lab: &mut ArmLab) {
     ScrollArea::vertical()
         .auto_shrink([false, false])
         .show(ui, |ui| {
@@ -29,7 +28,7 @@ pub(super) fn show(ui: &mut Ui, lab: &mut ArmLab, panel: &mut LabPanel) {
             let Some(bench) = lab.bench() else { return };
             place(ui, bench);
             row::divider(ui);
-            target(ui, lab, panel);
+            target(ui, lab);
             row::divider(ui);
             let Some(bench) = lab.bench() else { return };
             let mobility = bench.mobility();
@@ -116,7 +115,7 @@ fn roll_pitch_yaw(rotation: DQuat) -> [f64; 3] {
     [libm::atan2(y.z, z.z), pitch, libm::atan2(x.y, x.x)]
 }
 
-fn target(ui: &mut Ui, lab: &mut ArmLab, panel: &mut LabPanel) {
+fn target(ui: &mut Ui, lab: &mut ArmLab) {
     let palette = Palette::in_ui(ui);
     let Some(bench) = lab.bench() else { return };
     let miss = bench.miss();
@@ -154,13 +153,13 @@ fn target(ui: &mut Ui, lab: &mut ArmLab, panel: &mut LabPanel) {
         }
     }
     ui.horizontal(|ui| {
-        let says = "The same place by other joint angles, from random ones";
+        let says = "The same place by other joint angles: the next of all ways";
         if ui
             .add(Button::new("Another way"))
             .on_hover_text(tip(says, Command::Solve))
             .clicked()
         {
-            panel.no_other_way = lab.work(Bench::find_other_way) == Some(false);
+            lab.work(Bench::take_next_way);
         }
         ui.add_enabled_ui(miss.is_some(), |ui| {
             let says = "There is nothing to reach any more";
@@ -169,10 +168,67 @@ fn target(ui: &mut Ui, lab: &mut ArmLab, panel: &mut LabPanel) {
             }
         });
     });
-    if panel.no_other_way {
-        let text = "No other way was found.";
-        ui.label(RichText::new(text).small().color(palette.quiet));
+    ways(ui, lab);
+}
+
+/// The ways to the target, once they were looked for, each a button.
+fn ways(ui: &mut Ui, lab: &mut ArmLab) {
+    let palette = Palette::in_ui(ui);
+    let Some(bench) = lab.bench() else { return };
+    let Some(found) = bench.ways() else { return };
+    let (count, taken) = (found.ways.len(), bench.way_taken());
+    let text = match (count, found.is_endless) {
+        (0, _) => "No way gets there.".to_owned(),
+        (1, false) => "This is the only way.".to_owned(),
+        (_, true) => "Some of endlessly many ways:".to_owned(),
+        (_, false) => match found.method {
+            WaysMethod::Search => format!("{count} ways were found:"),
+            _ => format!("There are {count} ways:"),
+        },
+    };
+    let says = match found.method {
+        WaysMethod::SphericalWrist => {
+            "In closed form, for the last three axes meet in a point (Pieper 1968)"
+        }
+        WaysMethod::ThreeParallelAxes => {
+            "In closed form, for three axes are parallel (Hawkins 2013)"
+        }
+        _ => "From 400 random places; there may be more",
+    };
+    ui.label(RichText::new(text).small().color(palette.quiet))
+        .on_hover_text(says);
+    if count < 2 {
+        return;
     }
+    let degrees: Vec<String> = found
+        .ways
+        .iter()
+        .map(|way| in_degrees(bench, way))
+        .collect();
+    let mut chosen = None;
+    ui.horizontal_wrapped(|ui| {
+        for (index, degrees) in degrees.iter().enumerate() {
+            let button = Button::selectable(taken == Some(index), format!("Way {}", index + 1));
+            if ui.add(button).on_hover_text(degrees).clicked() {
+                chosen = Some(index);
+            }
+        }
+    });
+    if let Some(index) = chosen {
+        lab.work(|bench| bench.take_way(index));
+    }
+}
+
+/// The values of a way, as the sliders have them.
+fn in_degrees(bench: &Bench, way: &[f64]) -> String {
+    let shown = way
+        .iter()
+        .zip(&bench.robot().values)
+        .map(|(value, kind)| match kind.is_angle {
+            true => format!("{}\u{b0}", fixed(value.to_degrees(), 1)),
+            false => format!("{} m", fixed(*value, 3)),
+        });
+    shown.collect::<Vec<_>>().join("  ")
 }
 
 fn missing(miss: Miss) -> String {

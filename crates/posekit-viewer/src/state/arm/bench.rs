@@ -9,7 +9,9 @@ use std::sync::Arc;
 use egui::Pos2;
 use glam::{DQuat, DVec3};
 use posekit::ik::IkTarget;
-use posekit::ik::robot::{RobotConfig, RobotReport, RobotWorkspace, range_margins, solve_robot};
+use posekit::ik::robot::{
+    RobotConfig, RobotReport, RobotWorkspace, Ways, WaysConfig, range_margins, solve_robot, ways_to,
+};
 use posekit::mechanism::Frame;
 use posekit::skeleton::JointId;
 
@@ -28,12 +30,8 @@ const REACHED_RAD: f64 = 1e-6;
 /// tenth of a millisecond.
 const DRAG_ITERATIONS: u32 = 120;
 
-/// How many random starts are made for another way to the same target: some ten milliseconds when there
-/// is none.
-const OTHER_WAYS: u32 = 400;
-
-/// Two ways to a target are different when some value differs by this much, radians or metres.
-const DIFFERENT: f64 = 1e-2;
+/// The joints stand as a way has it while no value differs by more than this, radians or metres.
+const SAME: f64 = 1e-6;
 
 /// A value nearer than this to an end of its range is at it, radians or metres.
 pub const AT_END: f64 = 1e-9;
@@ -78,6 +76,8 @@ pub struct Bench {
     space: Space,
     target: Option<Target>,
     report: Option<RobotReport>,
+    /// The ways to the target, once they were looked for.
+    ways: Option<Ways>,
     held: Option<Held>,
     undo: Vec<Vec<f64>>,
     redo: Vec<Vec<f64>>,
@@ -106,6 +106,7 @@ impl Bench {
             space: Space::World,
             target: None,
             report: None,
+            ways: None,
             held: None,
             undo: Vec::new(),
             redo: Vec::new(),
@@ -323,6 +324,7 @@ impl Bench {
     pub fn forget_target(&mut self) {
         self.target = None;
         self.report = None;
+        self.ways = None;
     }
 
     fn moved_by_hand(&mut self) {
@@ -443,6 +445,7 @@ impl Bench {
         self.values = held.values;
         self.target = held.target;
         self.report = None;
+        self.ways = None;
         self.find_frames();
         true
     }
@@ -458,6 +461,7 @@ impl Bench {
             None => target,
         };
         self.target = Some(target);
+        self.ways = None;
         let config = self.config(1);
         let mut values = std::mem::take(&mut self.values);
         let report = self.solve(&mut values, target, &config);
@@ -466,34 +470,75 @@ impl Bench {
         self.find_frames();
     }
 
-    /// Finds another way to the target, or to where the tip is, from random places. True when there is
-    /// one that reaches it.
-    pub fn find_other_way(&mut self) -> bool {
+    /// The ways to the target, once they were looked for.
+    #[must_use]
+    pub fn ways(&self) -> Option<&Ways> {
+        self.ways.as_ref()
+    }
+
+    /// Which of the ways the joints stand as.
+    #[must_use]
+    pub fn way_taken(&self) -> Option<usize> {
+        let is_here = |way: &Vec<f64>| {
+            let pairs = way.iter().zip(&self.values);
+            pairs.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs())) <= SAME
+        };
+        self.ways.as_ref()?.ways.iter().position(is_here)
+    }
+
+    /// Finds all ways to the target, or to where the tip is, where that was not done yet.
+    pub fn find_ways(&mut self) {
         self.cancel_drag();
+        if self.ways.is_some() {
+            return;
+        }
+        let target = self.asked_target();
+        let config = WaysConfig {
+            robot: self.config(1),
+            ..WaysConfig::default()
+        };
+        let wanted = self.wanted(target);
+        let ways = ways_to(&self.robot.mechanism, &self.values, &wanted, &config);
+        self.target = Some(target);
+        self.ways = Some(ways);
+    }
+
+    /// Takes the next of all ways to the target, or to where the tip is. False where there is no other.
+    pub fn take_next_way(&mut self) -> bool {
+        self.find_ways();
+        let count = self.ways.as_ref().map_or(0, |ways| ways.ways.len());
+        let next = match self.way_taken() {
+            Some(taken) => (taken + 1) % count.max(1),
+            None => 0,
+        };
+        self.take_way(next)
+    }
+
+    /// Stands the joints as one of the ways has them. False where they do already, or there is no such way.
+    pub fn take_way(&mut self, index: usize) -> bool {
+        let way = self.ways.as_ref().and_then(|ways| ways.ways.get(index));
+        let Some(mut values) = way.cloned().filter(|_| self.way_taken() != Some(index)) else {
+            return false;
+        };
+        self.begin_step();
+        let config = self.config(1);
+        let target = self.asked_target();
+        // It is there already: this is for the report.
+        let report = self.solve(&mut values, target, &config);
+        self.values = values;
+        self.target = Some(target);
+        self.report = Some(report);
+        self.find_frames();
+        true
+    }
+
+    /// The target, or where the tip is.
+    fn asked_target(&self) -> Target {
         let frame = self.tip_frame();
-        let target = self.target.unwrap_or(Target {
+        self.target.unwrap_or(Target {
             position: frame.position,
             orientation: self.tool.turns().then_some(frame.orientation),
-        });
-        let config = self.config(1);
-        for _ in 0..OTHER_WAYS {
-            let mut values = self.random_values();
-            let report = self.solve(&mut values, target, &config);
-            let gap = values
-                .iter()
-                .zip(&self.values)
-                .map(|(a, b)| (a - b).abs())
-                .fold(0.0, f64::max);
-            if report.outcome.is_reached() && gap > DIFFERENT {
-                self.begin_step();
-                self.values = values;
-                self.target = Some(target);
-                self.report = Some(report);
-                self.find_frames();
-                return true;
-            }
-        }
-        false
+        })
     }
 
     /// Stands the planar arm so.
@@ -521,11 +566,16 @@ impl Bench {
         config
     }
 
-    fn solve(&mut self, values: &mut [f64], target: Target, config: &RobotConfig) -> RobotReport {
-        let mut wanted = IkTarget::position(self.tip, target.position);
-        if let Some(orientation) = target.orientation {
-            wanted = wanted.with_orientation(orientation);
+    fn wanted(&self, target: Target) -> IkTarget {
+        let wanted = IkTarget::position(self.tip, target.position);
+        match target.orientation {
+            Some(orientation) => wanted.with_orientation(orientation),
+            None => wanted,
         }
+    }
+
+    fn solve(&mut self, values: &mut [f64], target: Target, config: &RobotConfig) -> RobotReport {
+        let wanted = self.wanted(target);
         let mechanism = &self.robot.mechanism;
         solve_robot(mechanism, values, &[wanted], config, &mut self.workspace)
     }

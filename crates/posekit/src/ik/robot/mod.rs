@@ -8,7 +8,7 @@
 //! Solving of Generic Inverse Kinematics").
 //!
 //! [`jacobian`], [`Dexterity`] and [`range_margins`] say how well a robot can move from where it stands;
-//! [`TwoLink`] is the planar arm of the textbooks, solved in closed form.
+//! [`TwoLink`] is the planar arm of the textbooks, solved in closed form; [`ways_to`] finds all ways to one target.
 //!
 //! Space and units: targets are in the world, as everywhere; for a robot from a URDF file that is the world
 //! of its [`Mechanism`], Y up or not. Radians, and the mechanism's unit of length.
@@ -19,6 +19,7 @@
 mod dexterity;
 mod tree;
 mod two_link;
+mod ways;
 
 use super::least_squares::{LevenbergMarquardtConfig, Model, Patience, System, minimize};
 use super::problem::StopRule;
@@ -31,6 +32,7 @@ use tree::{RobotModel, Tree};
 
 pub use dexterity::{Dexterity, RangeMargin, Task, TipJacobian, jacobian, range_margins};
 pub use two_link::{TwoLink, TwoLinkSolutions};
+pub use ways::{Ways, WaysConfig, WaysMethod, ways_to};
 
 /// How [`solve_robot`] is set.
 #[derive(Clone, Copy, Debug, PartialEq)]
