@@ -113,6 +113,10 @@ warning_codes! {
     MissingJointLimit, "missing-joint-limit", Warning;
     /// A joint's lower limit is above its upper one; they are swapped.
     ReversedJointLimit, "reversed-joint-limit", Warning;
+    /// A joint mimics another in a way that makes no sense; it keeps a value of its own.
+    BrokenMimic, "broken-mimic", Warning;
+    /// Links of a robot that move have no mass; simulators refuse them.
+    MissingInertia, "missing-inertia", Note;
     /// A visual names a material that nothing describes; it has no colour.
     UnknownMaterial, "unknown-material", Warning;
     /// A visual has no shape, or one that the format does not have; it is left out.

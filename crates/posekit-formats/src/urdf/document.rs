@@ -3,8 +3,8 @@
 /// A robot: links, and the joints that connect them to a tree.
 ///
 /// Values are kept as the file gave them: metres and radians, Z up as a rule, `f64`. What is kept is
-/// what says where things are, how they move and how they look; masses, collision shapes, transmissions
-/// and the extensions of simulators are not.
+/// what says where things are, how they move and how they look, and what links weigh; their inertia, collision shapes,
+/// transmissions and the extensions of simulators are not.
 ///
 /// Invariants that [`read`](super::read()) guarantees: the joints make one tree of all links, with
 /// [`root`](Self::root) as its root; names are unique among links and among joints; every number is
@@ -28,6 +28,8 @@ pub struct UrdfLink {
     pub name: String,
     /// What is seen of it.
     pub visuals: Vec<UrdfVisual>,
+    /// Its mass in kilograms, as its `<inertial>` says; `None` without one.
+    pub mass_kg: Option<f64>,
 }
 
 /// A connection between two links.

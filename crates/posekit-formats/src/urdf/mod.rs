@@ -7,8 +7,8 @@
 //!
 //! The format is that of <http://wiki.ros.org/urdf/XML>. Read are links with their visuals, joints of all
 //! six kinds with origin, axis, limits and mimic, and materials. What makes sense is read and every liberty
-//! is a warning in the report; what makes no sense (a cycle, several roots, a link that is not there, a name
-//! twice) is one [`ReadError`](crate::report::ReadError) with a line and a column.
+//! is a warning in the report, a `<mimic>` that makes no sense too; what leaves no tree (a cycle, several roots, a link that
+//! is not there, a name twice) is one [`ReadError`](crate::report::ReadError) with a line and a column.
 //!
 //! Limits: [`MAX_DEPTH`], [`MAX_ELEMENTS`], [`MAX_ATTRIBUTES`]. The reader does not recurse, resolves no
 //! entities but those of XML itself, opens no other file, and takes memory in proportion to the bytes.
@@ -35,11 +35,13 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod check;
 mod document;
 mod read;
 mod robot;
 pub mod sample;
 
+pub use check::check;
 pub use document::{
     Urdf, UrdfJoint, UrdfJointKind, UrdfLimit, UrdfLink, UrdfMimic, UrdfOrigin, UrdfShape,
     UrdfVisual,

@@ -82,6 +82,154 @@ fn a_missing_or_reversed_limit_is_said() {
     assert!(import.report.is_empty());
 }
 
+/// A robot of three hinges, `j`, `k` and `m`, with these words inside.
+fn three([j, k, m]: [&str; 3]) -> Import<Urdf> {
+    let hinge = |name: &str, parent: &str, child: &str, inside: &str| {
+        format!(
+            "<link name='{child}'/>\n<joint name='{name}' type='continuous'><parent link='{parent}'/>\
+             <child link='{child}'/>{inside}</joint>"
+        )
+    };
+    let joints = [
+        hinge("j", "a", "b", j),
+        hinge("k", "b", "c", k),
+        hinge("m", "c", "d", m),
+    ];
+    read(&format!("<link name='a'/>{}", joints.concat()))
+}
+
+#[test]
+fn a_mimic_that_makes_no_sense_leaves_the_joint_its_own_value() {
+    let whole = "<mimic joint='j' multiplier='2'/>";
+    for (broken, why) in [
+        ("<mimic/>", "mimics no joint by name"),
+        ("<mimic joint='x'/>", "mimics `x`, which is not a joint"),
+        (
+            "<mimic joint='m'/>",
+            "mimics itself, directly or through others",
+        ),
+        (
+            "<mimic joint='j' multiplier='twice'/>",
+            "mimics `j` with multiplier `twice`",
+        ),
+        (
+            "<mimic joint='j' offset='nan'/>",
+            "mimics `j` with offset `nan`",
+        ),
+    ] {
+        let import = three(["", whole, broken]);
+        assert_eq!(codes(&import), ["broken-mimic"], "{broken}");
+        let text = import.report.warnings[0].to_string();
+        assert!(text.contains(&format!("joint `m` {why}")), "{text}");
+        assert!(text.contains("it keeps a value of its own"), "{text}");
+        let joints = &import.document.joints;
+        assert!(joints[2].mimic.is_none());
+        assert!(joints[1].mimic.is_some_and(|mimic| mimic.multiplier == 2.0));
+        let robot = import.document.to_robot(urdf::UpAxis::Y).unwrap();
+        assert_eq!(robot.value_count(), 2, "j and m");
+    }
+    let circle = three([
+        "<mimic joint='k'/>",
+        "<mimic joint='j'/>",
+        "<mimic joint='k'/>",
+    ]);
+    assert_eq!(codes(&circle), ["broken-mimic"; 2]);
+    let follows: Vec<_> = circle
+        .document
+        .joints
+        .iter()
+        .map(|j| j.mimic.is_some())
+        .collect();
+    assert_eq!(
+        follows,
+        [false, false, true],
+        "what follows the circle still does"
+    );
+    let slide =
+        "<link name='e'/><joint name='p' type='planar'><parent link='a'/><child link='e'/></joint>";
+    let import = read(&format!(
+        "<link name='a'/><link name='b'/>{slide}<joint name='j' type='continuous'>\
+         <parent link='a'/><child link='b'/><mimic joint='p'/></joint>"
+    ));
+    assert_eq!(codes(&import), ["broken-mimic"]);
+}
+
+#[test]
+fn moving_pieces_without_a_mass_are_found() {
+    let text = |inertial: &str| {
+        let link = |name: &str, inside: &str| format!("<link name='{name}'>{inside}</link>");
+        let joint = |name: &str, kind: &str, parent: &str, child: &str| {
+            format!(
+                "<joint name='{name}' type='{kind}'><parent link='{parent}'/><child link='{child}'/></joint>"
+            )
+        };
+        [
+            link("a", ""),
+            link("b", ""),
+            link("c", ""),
+            link("d", inertial),
+            joint("j", "continuous", "a", "b"),
+            joint("k", "continuous", "b", "c"),
+            joint("m", "fixed", "c", "d"),
+        ]
+        .concat()
+    };
+    let found = |inertial: &str| {
+        let import = read(&text(inertial));
+        urdf::check(&import.document, &import.report)
+    };
+    let none = found("");
+    assert_eq!(none.len(), 1);
+    assert_eq!((none[0].code, none[0].value), ("missing-inertia", 2.0));
+    assert!(
+        none[0]
+            .message
+            .contains("2 of 2 moving pieces have no mass (`b`, `c`)")
+    );
+    // What is fixed to a piece belongs to it.
+    let one = found("<inertial><mass value='0.5'/></inertial>");
+    assert!(
+        one[0]
+            .message
+            .contains("1 of 2 moving pieces have no mass (`b`)")
+    );
+    assert_eq!(one[0].joints, ["j"]);
+    for senseless in ["0", "-1", "much", "nan", ""] {
+        let inertial = format!("<inertial><mass value='{senseless}'/></inertial>");
+        assert_eq!(found(&inertial)[0].value, 2.0, "{senseless}");
+    }
+}
+
+/// Full shapes of the density of water (`make_inertials.py` writes the tensors, too). MuJoCo 3.17.0 takes all three files.
+#[test]
+fn links_of_the_samples_weigh_what_their_shapes_do() {
+    for (name, _) in urdf::sample::names() {
+        let import = urdf::read(urdf::sample::by_name(name).unwrap().as_bytes()).unwrap();
+        assert!(urdf::check(&import.document, &import.report).is_empty());
+        for link in &import.document.links {
+            let volume = |shape: &UrdfShape| match shape {
+                UrdfShape::Box { size: [x, y, z] } => x * y * z,
+                UrdfShape::Cylinder { radius, length } => {
+                    std::f64::consts::PI * radius * radius * length
+                }
+                UrdfShape::Sphere { radius } => 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3),
+                UrdfShape::Mesh { .. } => panic!("ours have none"),
+            };
+            let volume: f64 = link
+                .visuals
+                .iter()
+                .map(|visual| volume(&visual.shape))
+                .sum();
+            let mass = link.mass_kg.unwrap_or(0.0);
+            assert!(
+                (mass - 1000.0 * volume).abs() < 1e-4 * mass.max(0.1),
+                "{name} {}",
+                link.name
+            );
+        }
+    }
+}
+
 #[test]
 fn shapes_and_their_places_are_read() {
     let import = read(

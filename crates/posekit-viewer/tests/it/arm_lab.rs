@@ -253,6 +253,36 @@ fn another_way_reaches_the_same_place() {
     }
 }
 
+/// Two legs under a pelvis at the origin, as the file of a humanoid has it; with a floating base, or none.
+fn humanoid(base: &str) -> String {
+    let leg = |side: &str, y: f64| {
+        format!(
+            "<link name='{side}'><visual><origin xyz='0 0 -0.4'/><geometry><box size='0.1 0.1 0.8'/></geometry></visual></link>
+             <joint name='{side}_hip' type='continuous'><parent link='pelvis'/><child link='{side}'/><origin xyz='0 {y} 0'/>
+             <axis xyz='0 1 0'/></joint>"
+        )
+    };
+    format!(
+        "<robot name='h'>{base}<link name='pelvis'><visual><geometry><box size='0.2 0.3 0.2'/></geometry></visual></link>{}{}</robot>",
+        leg("left", 0.1),
+        leg("right", -0.1)
+    )
+}
+
+#[test]
+fn a_humanoid_stands_on_the_floor_and_an_arm_on_its_base() {
+    let floating = "<link name='world'/><joint name='free' type='floating'><parent link='world'/><child link='pelvis'/></joint>";
+    for base in ["", floating] {
+        let robot = Robot::read("h.urdf", humanoid(base).as_bytes()).expect("a robot");
+        let floor = robot.ground_height;
+        assert!((floor + 0.8).abs() < 1e-3, "{floor}");
+    }
+    for name in ["arm6", "arm7", "planar2"] {
+        let robot = Robot::sample(name).expect("one of ours");
+        assert!(robot.ground_height.abs() < 1e-3, "{name}");
+    }
+}
+
 #[test]
 fn the_ways_are_listed_and_stepped_through() {
     let mut window = lab_with("arm6");

@@ -7,6 +7,7 @@ use clap::{Args, ValueEnum};
 use posekit::check::{CheckConfig, FindingCode, Severity};
 use posekit_formats::bvh::{self, CheckEntry};
 use posekit_formats::report::{Location, WarningCode};
+use posekit_formats::urdf;
 use serde_json::{Value, json};
 
 use crate::args::Global;
@@ -30,7 +31,7 @@ use self::summary::Total;
 
 /// What is suspicious in a file: what its reader noticed, Euler flips, spikes, freezes, sliding feet
 ///
-/// Of a robot (URDF) it is what the reader noticed. Every finding has a code, and every code has a page in docs/check. The exit code is 1 when
+/// Of a robot (URDF) it is what the reader noticed, and whether all that moves has a mass. Every finding has a code, and every code has a page in docs/check. The exit code is 1 when
 /// something is an error, or has a code that --deny names. Euler flips are information, since the rotations are right: --warn euler-flip
 /// makes them warnings. Frames count from 0.
 #[derive(Debug, Args)]
@@ -203,7 +204,7 @@ fn check(
     // `posekit fix` mends motion files.
     let is_motion = matches!(subject, Subject::Clip(_));
     let mut entries = match subject {
-        Subject::Robot(import) => bvh::reader_entries(&import.report),
+        Subject::Robot(import) => urdf::check(&import.document, &import.report),
         Subject::Clip(import) => {
             let policy = args.root_offset.policy();
             let config = CheckConfig::default();

@@ -129,40 +129,60 @@ fn read_limit(
     }))
 }
 
-/// The `<mimic>` of a joint of this kind, when all joints are known.
+/// The `<mimic>` of a joint, when all joints are known. One that makes no sense is warned of: the joint keeps a value
+/// of its own.
 pub(super) fn read_mimic(
     element: Element<'_, '_>,
+    joint: &UrdfJoint,
+    joints: &[UrdfJoint],
+    names: &Names,
+    reporter: &mut Reporter<'_>,
+) -> Option<UrdfMimic> {
+    let mimic = element.child("mimic")?;
+    if joint.kind == UrdfJointKind::Fixed {
+        return None;
+    }
+    let read = sound_mimic(mimic, joint.kind, joints, names, reporter);
+    read.map_err(|(at, why)| warn_of_mimic(&joint.name, at, &why, reporter))
+        .ok()
+}
+
+/// Says why a joint does not follow another.
+pub(super) fn warn_of_mimic(name: &str, at: usize, why: &str, reporter: &mut Reporter<'_>) {
+    reporter.warn(WarningCode::BrokenMimic, at, || {
+        let name = quote(name.as_bytes());
+        format!("joint {name} mimics {why}; it keeps a value of its own")
+    });
+}
+
+/// A mimic that makes sense, or where and why it does not.
+fn sound_mimic(
+    mimic: Element<'_, '_>,
     kind: UrdfJointKind,
     joints: &[UrdfJoint],
     names: &Names,
     reporter: &mut Reporter<'_>,
-) -> Result<Option<UrdfMimic>, ReadError> {
-    let Some(mimic) = element.child("mimic") else {
-        return Ok(None);
+) -> Result<UrdfMimic, (usize, String)> {
+    let nothing = (mimic.at(), "no joint by name".to_owned());
+    let name = mimic.attribute("joint", reporter).ok().flatten();
+    let (name, at) = name.ok_or(nothing)?;
+    let quoted = quote(name.as_bytes());
+    let followed = names.get(&name);
+    let followed = followed.ok_or_else(|| (at, format!("{quoted}, which is not a joint")))?;
+    if kind.value_count() != 1 {
+        return Err((at, format!("{quoted}, and {} joints cannot", kind.name())));
+    }
+    let other = joints[followed].kind;
+    if other.value_count() != 1 {
+        return Err((at, format!("{quoted}, which is {}", other.name())));
+    }
+    let mut factor = |name: &str, default| match number(mimic, name, reporter) {
+        Ok(given) => Ok(given.unwrap_or(default)),
+        Err(error) => Err((at, format!("{quoted} with {name} {}", error.found))),
     };
-    if kind == UrdfJointKind::Fixed {
-        return Ok(None);
-    }
-    let (name, at) = required(mimic, "joint", reporter)?;
-    let followed = names.get(&name).ok_or_else(|| {
-        let found = format!("{}, which is no joint of it", quote(name.as_bytes()));
-        reporter.error(
-            ReadErrorKind::UnknownName,
-            at,
-            "a joint of this file",
-            found,
-        )
-    })?;
-    for kind in [kind, joints[followed].kind] {
-        if kind.value_count() != 1 {
-            let expected = "a joint with one value, following one with one value";
-            let found = format!("a {} joint", kind.name());
-            return Err(reporter.unexpected(at, expected, found));
-        }
-    }
-    Ok(Some(UrdfMimic {
+    Ok(UrdfMimic {
         joint: followed,
-        multiplier: number(mimic, "multiplier", reporter)?.unwrap_or(1.0),
-        offset: number(mimic, "offset", reporter)?.unwrap_or(0.0),
-    }))
+        multiplier: factor("multiplier", 1.0)?,
+        offset: factor("offset", 0.0)?,
+    })
 }

@@ -109,7 +109,19 @@ pub(super) fn read(
     Ok(UrdfLink {
         name: name.into_owned(),
         visuals,
+        mass_kg: mass(element, reporter)?,
     })
+}
+
+/// The mass of a link. Nothing here is moved by it, so that one which makes no sense counts as none.
+fn mass(element: Element<'_, '_>, reporter: &mut Reporter<'_>) -> Result<Option<f64>, ReadError> {
+    let mass = element
+        .child("inertial")
+        .and_then(|inertial| inertial.child("mass"));
+    let Some(mass) = mass else { return Ok(None) };
+    let text = mass.attribute("value", reporter)?;
+    let number = text.and_then(|(text, _)| fast_float2::parse::<f64, _>(text.trim()).ok());
+    Ok(number.filter(|mass| mass.is_finite()))
 }
 
 /// A `<visual>`, or `None` when its shape is of no kind that URDF has.

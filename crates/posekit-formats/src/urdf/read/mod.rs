@@ -98,9 +98,9 @@ fn read_robot(robot: Element<'_, '_>, reporter: &mut Reporter<'_>) -> Result<Urd
         let found = "a robot without links";
         return Err(reporter.unexpected(robot.at(), "an element `<link>`", found));
     }
-    let (joints, joint_places) = read_joints(robot, &link_names, reporter)?;
+    let (mut joints, joint_places) = read_joints(robot, &link_names, reporter)?;
     places.joints = joint_places;
-    tree::check_mimics(&joints, &places, reporter)?;
+    tree::free_circling_mimics(&mut joints, &places, reporter);
     let root = tree::root(&links, &joints, &places, reporter)?;
     Ok(Urdf {
         name: name.map(|(name, _)| name.into_owned()).unwrap_or_default(),
@@ -129,8 +129,8 @@ fn read_joints(
         joints.push(joint);
     }
     for (index, &element) in elements.iter().enumerate() {
-        let kind = joints[index].kind;
-        joints[index].mimic = joint::read_mimic(element, kind, &joints, &names, reporter)?;
+        let mimic = joint::read_mimic(element, &joints[index], &joints, &names, reporter);
+        joints[index].mimic = mimic;
     }
     let places = elements.iter().map(|element| element.at()).collect();
     Ok((joints, places))

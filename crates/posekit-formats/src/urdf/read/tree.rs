@@ -1,5 +1,6 @@
 //! What the joints must make of the links: one tree, and no joint that follows itself.
 
+use super::joint::warn_of_mimic;
 use crate::report::{ReadError, ReadErrorKind, Reporter, quote};
 use crate::urdf::{UrdfJoint, UrdfLink};
 
@@ -82,27 +83,26 @@ fn joint_in_cycle(carriers: &[Option<usize>], joints: &[UrdfJoint]) -> Option<us
     joints.iter().position(|joint| in_cycle[joint.child])
 }
 
-/// Refuses a joint that follows itself, directly or through others.
-pub(super) fn check_mimics(
-    joints: &[UrdfJoint],
+/// Lets joints that follow themselves, directly or through others, keep values of their own.
+pub(super) fn free_circling_mimics(
+    joints: &mut [UrdfJoint],
     places: &Places,
     reporter: &mut Reporter<'_>,
-) -> Result<(), ReadError> {
+) {
     let followed: Vec<Option<usize>> = joints
         .iter()
         .map(|joint| joint.mimic.map(|mimic| mimic.joint))
         .collect();
-    match in_cycles(&followed).iter().position(|&is_in| is_in) {
-        None => Ok(()),
-        Some(joint) => {
-            let found = format!("joint {}, which follows itself", named(&joints[joint].name));
-            let expected = "joints that mimic others";
-            Err(reporter.error(
-                ReadErrorKind::NotATree,
-                places.joints[joint],
-                expected,
-                found,
-            ))
+    let circling = in_cycles(&followed).into_iter().zip(joints);
+    for ((is_circling, joint), &at) in circling.zip(&places.joints) {
+        if is_circling {
+            joint.mimic = None;
+            warn_of_mimic(
+                &joint.name,
+                at,
+                "itself, directly or through others",
+                reporter,
+            );
         }
     }
 }

@@ -6,8 +6,8 @@
 
 use std::sync::Arc;
 
-use glam::{DVec3, Mat3, Quat, Vec3};
-use posekit::mechanism::{Freedom, Mechanism};
+use glam::{Affine3, DVec3, Mat3, Quat, Vec3};
+use posekit::mechanism::{Frame, Freedom, Mechanism};
 use posekit::skeleton::JointId;
 use posekit_formats::urdf::{Urdf, UrdfShape, UrdfVisual};
 use posekit_render::color::Color;
@@ -123,19 +123,34 @@ impl Body {
         builder.build()
     }
 
-    /// The least height of the vertices that ride on certain joints, where those stand; `None` without
+    /// The least and the largest height of the vertices that ride on certain joints, where those stand; `None` without
     /// any.
     #[must_use]
-    pub fn lowest(&self, joints: &[glam::Affine3], counts: impl Fn(usize) -> bool) -> Option<f32> {
+    pub fn heights(&self, joints: &[Affine3], counts: impl Fn(usize) -> bool) -> Option<[f32; 2]> {
         let vertices = self.parts.iter().flat_map(|part| &part.mesh.vertices);
         vertices
             .filter(|vertex| counts(vertex.joint as usize))
             .filter_map(|vertex| {
                 let joint = joints.get(vertex.joint as usize)?;
-                Some(joint.transform_point3(vertex.position).y)
+                let height = joint.transform_point3(vertex.position).y;
+                Some([height; 2])
             })
-            .reduce(f32::min)
+            .reduce(|[low, high], [a, b]| [low.min(a), high.max(b)])
     }
+}
+
+/// Frames as the transforms that vertices ride on.
+pub(super) fn transforms(frames: &[Frame]) -> Vec<Affine3> {
+    frames
+        .iter()
+        .map(|frame| {
+            let turn = Mat3::from_quat(frame.orientation.as_quat());
+            Affine3 {
+                matrix3: turn,
+                translation: frame.position.as_vec3(),
+            }
+        })
+        .collect()
 }
 
 /// A shape of the file in its link's frame. `None` for one that is not drawn.

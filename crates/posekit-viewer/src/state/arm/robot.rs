@@ -10,7 +10,7 @@ use posekit::skeleton::JointId;
 use posekit_formats::report::ImportReport;
 use posekit_formats::urdf::{self, UpAxis, Urdf, UrdfShape};
 
-use super::body::Body;
+use super::body::{Body, transforms};
 use super::planar::PlanarArm;
 
 /// One of the numbers that say where a robot's joints stand.
@@ -55,6 +55,8 @@ pub struct Robot {
     pub planar: Option<PlanarArm>,
     /// The values that it is shown with first.
     pub start: Vec<f64>,
+    /// Height of the floor that it stands on, in the world.
+    pub ground_height: f32,
     /// What was drawn otherwise than the file says, for people.
     pub note: Option<String>,
 }
@@ -102,6 +104,7 @@ impl Robot {
             ranges,
             joints_in_file,
             tips,
+            ground_height: ground_height(&mechanism, &body, &start),
             body: Arc::new(body),
             reach,
             planar,
@@ -297,6 +300,30 @@ fn reach(mechanism: &Mechanism, tips: &[JointId]) -> f64 {
         .into_iter()
         .find(|length| *length > 1e-6 && length.is_finite())
         .unwrap_or(1.0)
+}
+
+/// Where the floor is: under what stands still. A robot of which so much hangs below that, or nothing stands still, is
+/// not mounted there but stands on its feet, as a humanoid does whose root is its pelvis: the floor is under the lowest
+/// point of its pose at rest.
+fn ground_height(mechanism: &Mechanism, body: &Body, at_rest: &[f64]) -> f32 {
+    /// Of the height of all.
+    const HANGS: f32 = 0.2;
+    let skeleton = mechanism.skeleton();
+    let mut is_still = Vec::with_capacity(skeleton.joint_count());
+    for joint in skeleton.joints() {
+        let carried = skeleton
+            .parent(joint)
+            .is_none_or(|parent| is_still[parent.index()]);
+        is_still.push(carried && mechanism.joint(joint).freedom == Freedom::Fixed);
+    }
+    let joints = transforms(&mechanism.global_frames(at_rest));
+    let Some([lowest, highest]) = body.heights(&joints, |_| true) else {
+        return 0.0;
+    };
+    match body.heights(&joints, |joint| is_still.get(joint) == Some(&true)) {
+        Some([still, _]) if still - lowest <= HANGS * (highest - lowest) => still.min(0.0),
+        _ => lowest.min(0.0),
+    }
 }
 
 /// What is drawn otherwise than the file says.

@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use glam::{Affine3, DVec2, Mat3, Vec3};
-use posekit::mechanism::Frame;
 use posekit_render::camera::Camera;
 use posekit_render::color::Color;
 use posekit_render::grid::LengthUnit;
@@ -13,6 +12,7 @@ use posekit_render::stage::Room;
 use posekit_render::theme::Theme;
 
 use super::bench::Bench;
+use super::body::transforms;
 use super::planar::PlanarArm;
 use super::single;
 use crate::state::display::Look;
@@ -74,7 +74,7 @@ pub fn scene(bench: Option<&Bench>, shown: Shown, look: Look, camera: Camera) ->
     let room = Room {
         theme,
         size: 1.2 * size,
-        ground_height: bench.map_or(0.0, ground_height),
+        ground_height: bench.map_or(0.0, |bench| bench.robot().ground_height),
         focus: Vec3::ZERO,
         radius: 4.0 * size,
         unit: LengthUnit::Metre,
@@ -115,35 +115,6 @@ pub fn scene(bench: Option<&Bench>, shown: Shown, look: Look, camera: Camera) ->
         add_names(&mut scene, bench, &theme);
     }
     scene
-}
-
-fn transforms(frames: &[Frame]) -> Vec<Affine3> {
-    frames
-        .iter()
-        .map(|frame| {
-            let turn = Mat3::from_quat(frame.orientation.as_quat());
-            Affine3 {
-                matrix3: turn,
-                translation: frame.position.as_vec3(),
-            }
-        })
-        .collect()
-}
-
-/// The floor is under what stands still, and not over the origin.
-fn ground_height(bench: &Bench) -> f32 {
-    let robot = bench.robot();
-    let stands = |joint: usize| {
-        robot
-            .values_moving(posekit::skeleton::JointId::new(joint))
-            .is_empty()
-    };
-    let still: Vec<bool> = (0..bench.frames().len()).map(stands).collect();
-    let joints = transforms(bench.frames());
-    let lowest = robot
-        .body
-        .lowest(&joints, |joint| still.get(joint) == Some(&true));
-    lowest.unwrap_or(0.0).min(0.0)
 }
 
 /// The area between the two circles that the tip can reach, and what the elbow's range leaves of it.
