@@ -4,9 +4,9 @@ use std::fs;
 use std::io::{self, Read};
 use std::path::Path;
 
-use posekit::motion::{Motion, PositionPolicy};
-use posekit_formats::bvh::{self, Bvh};
-use posekit_formats::report::{Import, ImportReport, ReadError, Severity, Warning};
+use posekit::motion::{Motion, PositionPolicies};
+use posekit_formats::bvh::{self, Bvh, Gap};
+use posekit_formats::report::{Import, ImportReport, ReadError, ReadErrorKind, Severity, Warning};
 use posekit_formats::urdf::{self, Urdf};
 
 use crate::args::Global;
@@ -25,10 +25,22 @@ pub(crate) struct Loaded {
 
 impl Loaded {
     /// The motion that the document's channels make.
-    pub(crate) fn motion(&self, policy: PositionPolicy) -> Result<Motion, Failure> {
+    pub(crate) fn motion(&self, policies: PositionPolicies) -> Result<Motion, Failure> {
         self.bvh
-            .to_motion(policy)
+            .to_motion(policies)
             .map_err(|error| Failure::new(error.to_string()))
+    }
+
+    /// What position channels turn out to mean where they are no places, as a warning that names the option.
+    pub(crate) fn relative_positions(
+        &self,
+        input: &Input,
+        motion: &Motion,
+        policies: PositionPolicies,
+    ) -> Option<String> {
+        let found = self.bvh.relative_positions(motion, policies)?;
+        let text = format!("{}: {}", input.name(), found.advice());
+        Some(one_line(&text))
     }
 
     /// What the reader had to repair, as `file:line:column: message`.
@@ -69,19 +81,35 @@ pub(crate) enum Subject {
 /// Reads an input that may be a robot: bytes that begin as XML does are URDF. With `--strict` a file that
 /// needed repair is a failure.
 pub(crate) fn load_subject(input: &Input, global: &Global) -> Result<Subject, Failure> {
+    Ok(load_subject_by(input, global, parse_whole)?.0)
+}
+
+/// As [`load_subject`], with values in the rows that are no numbers: their places beside a clip.
+pub(crate) fn load_subject_with_gaps(
+    input: &Input,
+    global: &Global,
+) -> Result<(Subject, Vec<Gap>), Failure> {
+    load_subject_by(input, global, parse_with_gaps)
+}
+
+fn load_subject_by(
+    input: &Input,
+    global: &Global,
+    parse: impl Fn(&str, &[u8]) -> Result<(Import<Bvh>, Vec<Gap>), Failure>,
+) -> Result<(Subject, Vec<Gap>), Failure> {
     let name = input.name();
     let Some(bytes) = input_bytes(input)? else {
-        return Ok(Subject::Clip(load_import(input, global)?.0));
+        return Ok((Subject::Clip(load_import(input, global)?.0), Vec::new()));
     };
     if !looks_like_xml(&bytes) {
-        let import = parse(&name, &bytes)?;
+        let (import, gaps) = parse(&name, &bytes)?;
         refuse_repairs(&name, &import.report, global)?;
-        return Ok(Subject::Clip(import));
+        return Ok((Subject::Clip(import), gaps));
     }
     let import =
         urdf::read(&bytes).map_err(|error| Failure::new(read_error_line(&name, &error)))?;
     refuse_repairs(&name, &import.report, global)?;
-    Ok(Subject::Robot(import))
+    Ok((Subject::Robot(import), Vec::new()))
 }
 
 fn looks_like_xml(bytes: &[u8]) -> bool {
@@ -120,10 +148,42 @@ pub(crate) fn load_import(
     input: &Input,
     global: &Global,
 ) -> Result<(Import<Bvh>, Vec<u8>), Failure> {
+    let read = load_import_by(input, global, parse_whole)?;
+    Ok((read.import, read.bytes))
+}
+
+/// As [`load_import`], with values in the rows that are no numbers, and where they are.
+pub(crate) fn load_import_with_gaps(
+    input: &Input,
+    global: &Global,
+) -> Result<ImportWithGaps, Failure> {
+    load_import_by(input, global, parse_with_gaps)
+}
+
+/// A reader's result, the bytes that were read, and the values in them that are no numbers.
+#[derive(Debug)]
+pub(crate) struct ImportWithGaps {
+    /// The document, which holds 0 for each gap, and the report.
+    pub(crate) import: Import<Bvh>,
+    /// The bytes.
+    pub(crate) bytes: Vec<u8>,
+    /// The values that are no numbers.
+    pub(crate) gaps: Vec<Gap>,
+}
+
+fn load_import_by(
+    input: &Input,
+    global: &Global,
+    parse: impl Fn(&str, &[u8]) -> Result<(Import<Bvh>, Vec<Gap>), Failure>,
+) -> Result<ImportWithGaps, Failure> {
     let name = input.name();
     let without_notices = |document| {
         let report = ImportReport::default();
-        Ok((Import { document, report }, Vec::new()))
+        Ok(ImportWithGaps {
+            import: Import { document, report },
+            bytes: Vec::new(),
+            gaps: Vec::new(),
+        })
     };
     let bytes = match &input.source {
         Source::File(path) if scene_file::is_scene(path) => {
@@ -135,13 +195,36 @@ pub(crate) fn load_import(
         Source::Stdin => stdin_bytes()?,
         Source::Sample(sample) => return without_notices(sample.document()?),
     };
-    let import = parse(&name, &bytes)?;
+    let (import, gaps) = parse(&name, &bytes)?;
     refuse_repairs(&name, &import.report, global)?;
-    Ok((import, bytes))
+    Ok(ImportWithGaps {
+        import,
+        bytes,
+        gaps,
+    })
 }
 
-fn parse(name: &str, bytes: &[u8]) -> Result<Import<Bvh>, Failure> {
-    bvh::read(bytes).map_err(|error| Failure::new(read_error_line(name, &error)))
+/// Reads a file whose values are numbers, all of them.
+fn parse_whole(name: &str, bytes: &[u8]) -> Result<(Import<Bvh>, Vec<Gap>), Failure> {
+    bvh::read(bytes)
+        .map(|import| (import, Vec::new()))
+        .map_err(|error| refused(name, bytes, &error))
+}
+
+/// The failure of a file that cannot be read; where only numbers are missing, what can be done.
+pub(crate) fn refused(name: &str, bytes: &[u8], error: &ReadError) -> Failure {
+    let failure = Failure::new(read_error_line(name, error));
+    let has_gaps = error.kind == ReadErrorKind::NotFinite && bvh::read_with_gaps(bytes).is_ok();
+    if has_gaps {
+        failure
+            .try_next("posekit check lists all such values, posekit fix --bridge-gaps fills them")
+    } else {
+        failure
+    }
+}
+
+fn parse_with_gaps(name: &str, bytes: &[u8]) -> Result<(Import<Bvh>, Vec<Gap>), Failure> {
+    bvh::read_with_gaps(bytes).map_err(|error| Failure::new(read_error_line(name, &error)))
 }
 
 /// `file:line:column: expected this, found that`, which editors and terminals make a link of.

@@ -11,14 +11,15 @@ mod inputs;
 mod jobs;
 mod load;
 mod output;
+mod positions;
 mod program;
 mod progress;
-mod root_offset;
 mod sample;
 mod scene_file;
 mod select;
 mod similar;
 mod text;
+mod up;
 
 use std::process::ExitCode;
 

@@ -35,6 +35,18 @@ pub(crate) fn decimals_for(size: f64) -> usize {
     }
 }
 
+/// How many decimals show a number itself, to about three digits: a length of a millionth is not 0.
+pub(crate) fn decimals_to_show(value: f64) -> usize {
+    const MOST: usize = 12;
+    let mut decimals = 3;
+    let mut shown = value.abs() * 10.0;
+    while shown > 0.0 && shown < 1.0 && decimals < MOST {
+        shown *= 10.0;
+        decimals += 1;
+    }
+    decimals
+}
+
 /// A number with at most `decimals` of them and no zeros at the end.
 pub(crate) fn trimmed(value: f64, decimals: usize) -> String {
     let text = fixed(value, decimals);

@@ -77,7 +77,7 @@ warning_codes! {
     ZeroLengthEndSite, "zero-length-end-site", Note;
     /// An End Site has channels or children; it was read as a joint.
     EndSiteAsJoint, "end-site-as-joint", Warning;
-    /// The words after `End` are not just `Site`; they were ignored.
+    /// The word after `End` is not `Site`; it was ignored.
     EndSiteWords, "end-site-words", Note;
     /// A root has position channels and an OFFSET that is not zero: programs differ on whether they add up.
     NonzeroRootOffset, "nonzero-root-offset", Note;

@@ -4,7 +4,9 @@ use std::ffi::OsString;
 use std::io::Write;
 
 use clap::Args;
-use posekit_formats::bvh::{self, Change, FixConfig, NameRepair, WriteOptions, write_to};
+use posekit_formats::bvh::{
+    self, Bvh, Change, FixConfig, Gap, GapError, NameRepair, WriteOptions, write_to,
+};
 use serde_json::{Value, json};
 
 use crate::args::Global;
@@ -13,7 +15,7 @@ use crate::console::{self, DIM, HEADING, styled};
 use crate::extension;
 use crate::failure::{Failure, one_line};
 use crate::inputs;
-use crate::load;
+use crate::load::{self, ImportWithGaps};
 use crate::output::{Destination, Plan, write_whole};
 use crate::text::counted;
 
@@ -34,6 +36,21 @@ pub(crate) struct FixArgs {
     /// Write blanks in joint names as underscores
     #[arg(long)]
     names: bool,
+    /// Fill values that are no numbers (nan, inf) from the frames beside them: rotations by slerp,
+    /// positions in a straight line; at the beginning and the end the nearest frame is held
+    #[arg(long)]
+    bridge_gaps: bool,
+    /// The longest gap that is filled; a file with a longer one is not written
+    #[arg(
+        long,
+        value_name = "SECS",
+        default_value_t = 0.5,
+        requires = "bridge_gaps"
+    )]
+    max_gap: f64,
+    /// Write this as the seconds from a frame to the next
+    #[arg(long, value_name = "SECS")]
+    frame_time: Option<f64>,
     /// Say what would be changed and write nothing
     #[arg(long, conflicts_with = "output")]
     dry_run: bool,
@@ -46,7 +63,9 @@ const EXAMPLES: &str = "\
 Examples:
   posekit fix walk.bvh -o fixed.bvh
   posekit fix --dry-run takes/
+  posekit fix lost.bvh -o whole.bvh --bridge-gaps --max-gap 0.25
   posekit fix --names takes/ -o fixed/
+  posekit fix slow.bvh -o right.bvh --frame-time 0.01
   posekit fix --json --dry-run takes/ | jq -r 'select(.changes != []) | .file'";
 
 /// Runs the command.
@@ -72,14 +91,24 @@ pub(crate) fn run(args: &FixArgs, global: &Global) -> Result<(), Failure> {
     };
     let config = FixConfig {
         names,
+        frame_time_secs: args.frame_time,
         ..FixConfig::default()
     };
     batch::run_telling(
         inputs,
         global,
         |index, input| {
-            let (import, bytes) = load::load_import(input, global)?;
-            let fixed = bvh::fix(&bytes, &import, &config);
+            let in_file = |failure: Failure| failure.in_file(&input.name());
+            let ImportWithGaps {
+                mut import,
+                bytes,
+                gaps,
+            } = load::load_import_with_gaps(input, global)?;
+            let mut bridged = bridge(args, &mut import.document, &gaps, &bytes, &input.name())?;
+            let mut fixed = bvh::fix(&bytes, &import, &config)
+                .map_err(|error| in_file(Failure::new(error.to_string())))?;
+            bridged.append(&mut fixed.changes);
+            fixed.changes = bridged;
             let destination = plan.as_ref().map(|plan| plan.destination(index));
             let mut written = None;
             match destination {
@@ -123,6 +152,59 @@ pub(crate) fn run(args: &FixArgs, global: &Global) -> Result<(), Failure> {
             Ok(())
         },
     )
+}
+
+/// Fills the gaps of a document where that was asked for; without it they are the error of the reader.
+fn bridge(
+    args: &FixArgs,
+    document: &mut Bvh,
+    gaps: &[Gap],
+    bytes: &[u8],
+    name: &str,
+) -> Result<Vec<Change>, Failure> {
+    if gaps.is_empty() {
+        return Ok(Vec::new());
+    }
+    if !args.bridge_gaps {
+        return Err(match bvh::read(bytes) {
+            Err(error) => load::refused(name, bytes, &error),
+            Ok(_) => Failure::new("has values that are no numbers").in_file(name),
+        });
+    }
+    let frame_time_secs = document
+        .motion
+        .as_ref()
+        .map_or(0.0, |it| it.frame_time_secs);
+    let most_frames = frames_in(args.max_gap, frame_time_secs)?;
+    bvh::bridge_gaps(document, gaps, most_frames).map_err(|error| {
+        let failure = Failure::new(error.to_string()).in_file(name);
+        match error {
+            GapError::TooLong { .. } => failure.try_next("--max-gap allows longer ones"),
+            _ => failure,
+        }
+    })
+}
+
+/// How many whole frames a time has; at a frame time that is none, a frame each thirtieth of a second.
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a cast from float to integer saturates, and the number is not negative"
+)]
+fn frames_in(secs: f64, frame_time_secs: f64) -> Result<usize, Failure> {
+    const USUAL_FRAME_TIME_SECS: f64 = 1.0 / 30.0;
+    /// A gap of 0.5 s at a frame time of 0.0166667 s has 30 frames.
+    const ROUNDING: f64 = 1e-3;
+    if !(secs >= 0.0 && secs.is_finite()) {
+        return Err(Failure::usage(
+            "--max-gap is a number of seconds, not below zero",
+        ));
+    }
+    let frame_time_secs = match frame_time_secs > 0.0 {
+        true => frame_time_secs,
+        false => USUAL_FRAME_TIME_SECS,
+    };
+    Ok((secs / frame_time_secs + ROUNDING).floor() as usize)
 }
 
 fn json_line(name: &str, changes: &[Change], written: Option<&str>) -> String {

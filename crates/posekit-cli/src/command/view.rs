@@ -7,11 +7,14 @@ use std::path::Path;
 use clap::Args;
 use posekit_formats::urdf;
 use posekit_viewer::load::Input as Opened;
+use posekit_viewer::state::clip::ReadingSaid;
 use posekit_viewer::{ViewerOptions, run_native};
 
 use crate::args::RendererArg;
 use crate::failure::Failure;
 use crate::inputs::{self, Source};
+use crate::positions::PositionsArgs;
+use crate::up::UpArgs;
 
 /// Open a window and see the character move
 ///
@@ -24,6 +27,10 @@ pub(crate) struct ViewArgs {
     /// Files, folders, patterns, '-' or sample:NAME
     #[arg(value_name = "FILE")]
     files: Vec<OsString>,
+    #[command(flatten)]
+    up: UpArgs,
+    #[command(flatten)]
+    positions: PositionsArgs,
     /// What draws: auto is the graphics card, if there is one, and else the CPU
     #[arg(long, value_name = "WHICH", default_value = "auto")]
     renderer: RendererArg,
@@ -56,6 +63,10 @@ pub(crate) fn run(args: &ViewArgs) -> Result<(), Failure> {
     }
     let mut options = options(&args.files)?;
     options.renderer = args.renderer.into();
+    options.reading = ReadingSaid {
+        positions: args.positions.is_given().then(|| args.positions.policies()),
+        up: args.up.said(),
+    };
     run_native(options).map_err(|error| no_window(&error.to_string()))
 }
 

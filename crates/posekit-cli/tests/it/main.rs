@@ -33,3 +33,4 @@ mod serve;
 #[cfg(feature = "window")]
 mod shots;
 mod whole_files;
+mod wild_files;

@@ -34,7 +34,7 @@ fn shells_can_complete() {
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
         let script = folder.succeed(&["completions", shell]);
         assert!(
-            script.contains("convert") && script.contains("root-offset"),
+            script.contains("convert") && script.contains("positions"),
             "{shell}"
         );
     }

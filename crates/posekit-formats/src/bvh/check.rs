@@ -2,13 +2,15 @@
 //! the channels, and what is suspicious in the motion.
 
 use posekit::check::{
-    CheckConfig, Finding, FrameRange, Severity, Unit, check_channels, check_motion,
+    CheckConfig, Finding, FindingCode, FrameRange, RelativePositions, Severity, Unit,
+    check_channels, check_motion, relative_positions,
 };
-use posekit::motion::PositionPolicy;
+use posekit::motion::{Motion, PositionPolicies};
 use posekit::skeleton::{JointId, Skeleton, SkeletonError};
 
-use super::{Bvh, BvhJoint};
-use crate::report::{self, ImportReport, Place, Warning, WarningCode};
+use super::bridge::in_words;
+use super::{Bvh, BvhJoint, Gap, JointGaps, bridge_gaps, gaps_by_joint};
+use crate::report::{self, ImportReport, Location, Warning, WarningCode};
 
 /// One entry of a file's check, ready to be shown: a [`Finding`] or a reader's [`Warning`].
 #[derive(Clone, Debug, PartialEq)]
@@ -40,26 +42,107 @@ pub struct CheckEntry {
 /// occurrence, `value` counts all of them), in the order of the file, then the findings in
 /// channels and motion, sorted as [`posekit::check::sort_findings`] does.
 ///
-/// `import_report` is what [`read`](super::read()) returned with the document; `policy` is what its
-/// position channels mean.
+/// `import_report` is what [`read`](super::read()) returned with the document; `policies` is what its
+/// position channels mean. Where they turn out to mean something else ([`relative_positions`]), that is a
+/// finding, and the motion is checked as it is meant: otherwise a figure that nobody recorded is blamed.
 ///
 /// # Errors
 /// When the document has no skeleton, as [`Bvh::to_skeleton`].
 pub fn check(
     bvh: &Bvh,
     import_report: &ImportReport,
-    policy: PositionPolicy,
+    policies: impl Into<PositionPolicies>,
     config: &CheckConfig,
 ) -> Result<Vec<CheckEntry>, SkeletonError> {
-    let motion = bvh.to_motion(policy)?;
+    check_whole(bvh, import_report, policies.into(), config, Vec::new())
+}
+
+/// As [`check`], of a document that [`read_with_gaps`](super::read_with_gaps) gave: values that are no
+/// numbers are findings, one a joint, and everything else is checked with bridges over them.
+///
+/// # Errors
+/// As [`check`].
+pub fn check_with_gaps(
+    bvh: &Bvh,
+    gaps: &[Gap],
+    import_report: &ImportReport,
+    policies: impl Into<PositionPolicies>,
+    config: &CheckConfig,
+) -> Result<Vec<CheckEntry>, SkeletonError> {
+    let policies = policies.into();
+    if gaps.is_empty() {
+        return check(bvh, import_report, policies, config);
+    }
+    let found = gaps_by_joint(bvh, gaps)
+        .iter()
+        .map(gap_finding(bvh))
+        .collect();
+    let mut whole = bvh.clone();
+    // What cannot be bridged at all stays as the reader filled it.
+    let _ = bridge_gaps(&mut whole, gaps, usize::MAX);
+    check_whole(&whole, import_report, policies, config, found)
+}
+
+/// What is said of a joint with values that are no numbers.
+fn gap_finding(bvh: &Bvh) -> impl Fn(&JointGaps) -> Finding {
+    |gaps| {
+        let name = bvh.joints[gaps.joint].name();
+        let (is, number) = match gaps.count {
+            1 => ("value", "is no number"),
+            _ => ("values", "are no numbers"),
+        };
+        Finding {
+            code: FindingCode::NotFinite,
+            severity: Severity::Error,
+            joints: vec![JointId::new(gaps.joint)],
+            frames: gaps
+                .runs
+                .first()
+                .zip(gaps.runs.last())
+                .map(|(first, last)| FrameRange {
+                    first: first.first,
+                    last: last.last,
+                }),
+            value: gaps.count as f64,
+            unit: Unit::Occurrences,
+            share_of_height: None,
+            message: format!(
+                "{} {is} of {name} {number} (nan, inf or the like), in {}: posekit fix --bridge-gaps fills \
+                 short gaps",
+                gaps.count,
+                in_words(&gaps.runs)
+            ),
+        }
+    }
+}
+
+fn check_whole(
+    bvh: &Bvh,
+    import_report: &ImportReport,
+    policies: PositionPolicies,
+    config: &CheckConfig,
+    more: Vec<Finding>,
+) -> Result<Vec<CheckEntry>, SkeletonError> {
+    let mut motion = bvh.to_motion(policies)?;
+    let relative = bvh.relative_positions(&motion, policies);
+    if let Some(relative) = &relative {
+        motion = bvh.to_motion(relative.policies)?;
+    }
     let skeleton = motion.skeleton();
     let mut findings = check_motion(&motion, &motion.to_global(), config);
     if let Some(rows) = &bvh.motion {
         let layout = bvh.channel_layout();
         findings.extend(check_channels(skeleton, &layout, &rows.values, config));
     }
+    findings.extend(more);
+    let concerns_root = relative.as_ref().is_some_and(|it| it.concerns_root);
+    findings.extend(relative.map(|relative| relative.finding));
     posekit::check::sort_findings(&mut findings);
     let mut entries = reader_entries(import_report);
+    if concerns_root {
+        // The finding says what the reader could only wonder about.
+        entries.retain(|entry| entry.code != WarningCode::NonzeroRootOffset.code());
+    }
     for entry in &mut entries {
         if entry.code == WarningCode::ZeroLengthEndSite.code() {
             name_open_ends(entry, bvh, skeleton);
@@ -71,6 +154,23 @@ pub fn check(
             .map(|finding| finding_entry(finding, skeleton)),
     );
     Ok(entries)
+}
+
+impl Bvh {
+    /// Looks whether position channels are relative to the OFFSETs or hold nothing although they were read
+    /// as places; see [`relative_positions`]. `motion` is what [`to_motion`](Self::to_motion) made of the
+    /// document under `policies`.
+    pub fn relative_positions(
+        &self,
+        motion: &Motion,
+        policies: impl Into<PositionPolicies>,
+    ) -> Option<RelativePositions> {
+        let read_again = |policies| {
+            // What made a skeleton once makes one again.
+            self.to_motion(policies).unwrap_or_else(|_| motion.clone())
+        };
+        relative_positions(motion, policies.into(), read_again)
+    }
 }
 
 /// How many of the lines that a folded entry stands for its message lists.

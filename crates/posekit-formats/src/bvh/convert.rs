@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
-use posekit::motion::{Channel, ChannelLayout, Motion, PositionPolicy};
+use posekit::motion::{Channel, ChannelLayout, Motion, PositionPolicies};
 use posekit::skeleton::{JointId, Skeleton, SkeletonBuilder, SkeletonError};
 
 use super::{Bvh, BvhJoint};
@@ -46,7 +46,10 @@ impl Bvh {
     ///
     /// # Errors
     /// As [`to_skeleton`](Self::to_skeleton).
-    pub fn to_motion(&self, policy: PositionPolicy) -> Result<Motion, SkeletonError> {
+    pub fn to_motion(
+        &self,
+        policies: impl Into<PositionPolicies>,
+    ) -> Result<Motion, SkeletonError> {
         let skeleton = Arc::new(self.to_skeleton()?);
         let layout = self.channel_layout();
         let (frame_time_secs, values) =
@@ -59,11 +62,11 @@ impl Bvh {
             frame_time_secs,
             &layout,
             values,
-            policy,
+            policies,
         ))
     }
 
-    /// The joints for which the [`PositionPolicy`] matters: they have position channels and an OFFSET
+    /// The joints for which the [`PositionPolicies`] matter: they have position channels and an OFFSET
     /// that is not zero.
     pub fn joints_with_offset_and_position(&self) -> impl Iterator<Item = usize> + '_ {
         let matters = |joint: &BvhJoint| {

@@ -25,8 +25,8 @@ pub struct Bvh {
 /// A ROOT, JOINT or End Site.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BvhJoint {
-    /// The name as the file gave it, byte for byte, without blanks around it. An End Site's is its
-    /// parent's with `_end` added, which no file says and the writer does not write.
+    /// The name as the file gave it, byte for byte, without blanks around it. An End Site without a
+    /// name of its own has its parent's with `_end` added; see [`BvhJoint::end_name`].
     pub name: Vec<u8>,
     /// The index of the parent in [`Bvh::joints`], less than the joint's own; `None` for a ROOT.
     pub parent: Option<usize>,
@@ -36,6 +36,23 @@ pub struct BvhJoint {
     pub channels: Vec<Channel>,
     /// Whether the file calls it an End Site. An End Site has no channels and no children.
     pub is_end_site: bool,
+    /// Where an End Site's name comes from; [`EndName::Implied`] for all other joints.
+    pub end_name: EndName,
+}
+
+/// Where the name of an End Site comes from, and how it is written.
+///
+/// The format has no name for an End Site. Some programs write one all the same, and a program that
+/// does not know it reads past it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum EndName {
+    /// The file says none: it is the parent's name with `_end` added, and is not written.
+    #[default]
+    Implied,
+    /// In a comment, as `End Site #name: LeftToeTip`.
+    Comment,
+    /// After the keyword, as `End Site LeftToeTip`.
+    Word,
 }
 
 /// The MOTION section.
@@ -84,6 +101,18 @@ pub enum InvalidBvh {
     #[error("a number is NaN or infinite")]
     NotFinite,
 }
+
+/// The name of an End Site that has none of its own.
+pub(super) fn implied_end_name(parent_name: &[u8]) -> Vec<u8> {
+    let mut name = parent_name.to_vec();
+    if name.len() + IMPLIED_ENDING.len() <= super::MAX_NAME_BYTES {
+        name.extend_from_slice(IMPLIED_ENDING);
+    }
+    name
+}
+
+/// What is added to a joint's name to call the End Site below it.
+const IMPLIED_ENDING: &[u8] = b"_end";
 
 impl BvhJoint {
     /// The name as text; bytes that are not UTF-8 show as the replacement character.

@@ -5,7 +5,8 @@
 //! to put right is written right; blanks in names become underscores when that is asked for. Values that
 //! no repair touches stay the same to the bit.
 //!
-//! What would need a guess is left alone: spikes, teleports, freezes, sliding feet, frame times.
+//! What would need a guess is left alone: spikes, teleports, freezes, sliding feet. A frame time is set
+//! when it is said.
 
 use std::collections::HashSet;
 use std::fmt;
@@ -14,7 +15,8 @@ use posekit::check::{CheckConfig, EulerStep, EulerTracker, FrameRange};
 use posekit::motion::Channel;
 use posekit::rotation::Axis;
 
-use super::Bvh;
+use super::edit::{EditError, set_frame_time};
+use super::{Bvh, EndName};
 use crate::report::{Import, Location, Severity};
 
 /// What to do with blanks in the names of joints.
@@ -32,6 +34,8 @@ pub enum NameRepair {
 pub struct FixConfig {
     /// What to do with blanks in names.
     pub names: NameRepair,
+    /// The frame time to write, in seconds; `None` leaves the file's.
+    pub frame_time_secs: Option<f64>,
     /// The thresholds by which flips are found.
     pub check: CheckConfig,
 }
@@ -46,6 +50,12 @@ pub enum ChangeCode {
     LineEnds,
     /// A joint's Euler angles are continuous.
     FlipsUnwrapped,
+    /// The frame time is another one, as asked for.
+    FrameTimeSet,
+    /// A frame time that cannot be right was left, because nobody said the right one.
+    FrameTimeKept,
+    /// Values that were no numbers were filled from the frames beside them.
+    GapBridged,
     /// Blanks in a name became underscores.
     NameBlanks,
     /// Blanks in a name were left, because without them it would be another joint's name.
@@ -59,6 +69,9 @@ impl ChangeCode {
             Self::WrittenRight => "written-right",
             Self::LineEnds => "line-ends",
             Self::FlipsUnwrapped => "flips-unwrapped",
+            Self::FrameTimeSet => "frame-time-set",
+            Self::FrameTimeKept => "frame-time-kept",
+            Self::GapBridged => "gap-bridged",
             Self::NameBlanks => "name-blanks",
             Self::NameKept => "name-kept",
         }
@@ -101,15 +114,49 @@ pub struct Fixed {
 /// Repairs what can be repaired without guessing.
 ///
 /// `bytes` is the file that `import` was read from; only its line ends are looked at.
-pub fn fix(bytes: &[u8], import: &Import<Bvh>, config: &FixConfig) -> Fixed {
+///
+/// # Errors
+/// When [`FixConfig::frame_time_secs`] is no time, or the document has no motion to give it to.
+pub fn fix(bytes: &[u8], import: &Import<Bvh>, config: &FixConfig) -> Result<Fixed, EditError> {
     let mut document = import.document.clone();
     let mut changes = written_right(import);
     changes.extend(line_ends(bytes));
+    changes.extend(frame_time(&mut document, config)?);
     if config.names == NameRepair::BlanksToUnderscores {
         changes.extend(rename_blanks(&mut document));
     }
     changes.extend(unwrap_flips(&mut document, &config.check));
-    Fixed { document, changes }
+    Ok(Fixed { document, changes })
+}
+
+/// A frame time from here on is frames a second in the wrong place, and no motion.
+const SLOWEST_FRAME_TIME_SECS: f64 = 1.0;
+
+/// Sets the frame time that was asked for, or says that the file's cannot be right.
+fn frame_time(document: &mut Bvh, config: &FixConfig) -> Result<Option<Change>, EditError> {
+    let old = document.motion.as_ref().map(|it| it.frame_time_secs);
+    let change = |code, message| Change {
+        code,
+        joint: None,
+        frames: None,
+        location: None,
+        count: 1,
+        message,
+    };
+    let Some(secs) = config.frame_time_secs else {
+        let is_possible = |secs: f64| secs > 0.0 && secs < SLOWEST_FRAME_TIME_SECS;
+        let kept = old.filter(|&secs| !is_possible(secs)).map(|secs| {
+            let message = format!("a frame time of {secs} s kept: --frame-time sets the right one");
+            change(ChangeCode::FrameTimeKept, message)
+        });
+        return Ok(kept);
+    };
+    set_frame_time(document, secs)?;
+    let differs = old.filter(|old| old.to_bits() != secs.to_bits());
+    Ok(differs.map(|old| {
+        let message = format!("a frame time of {old} s set to {secs} s");
+        change(ChangeCode::FrameTimeSet, message)
+    }))
 }
 
 /// Makes the Euler angles of every joint with one to three rotation channels continuous, and says what
@@ -248,8 +295,8 @@ fn rename_blanks(document: &mut Bvh) -> Vec<Change> {
         let old = joint.name().into_owned();
         let new = String::from_utf8_lossy(&renamed).into_owned();
         let is_free = taken.insert(renamed.clone());
-        // An End Site's name stands in no file: it follows its joint's without being a change.
-        if joint.is_end_site {
+        // A name that stands in no file follows its joint's without being a change.
+        if joint.is_end_site && joint.end_name == EndName::Implied {
             joint.name = renamed;
             continue;
         }

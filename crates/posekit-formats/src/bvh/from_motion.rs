@@ -4,7 +4,8 @@ use posekit::motion::{Channel, Motion};
 use posekit::rotation::{Axis, EulerOrder};
 use posekit::skeleton::{JointId, Skeleton};
 
-use super::{Bvh, BvhJoint, BvhMotion};
+use super::document::implied_end_name;
+use super::{Bvh, BvhJoint, BvhMotion, EndName};
 
 /// Decimals that lengths and angles in degrees are rounded to: beyond what the `f32` of a motion can
 /// tell, for lengths up to ten units and any angle.
@@ -32,7 +33,7 @@ impl Bvh {
             is_translated[joint.index()] = true;
         }
         let joints = ids.iter().map(|&id| BvhJoint {
-            name: name(skeleton, id).into_bytes(),
+            name: name(skeleton, id),
             parent: skeleton.parent(id).map(|parent| place_of[parent.index()]),
             offset: skeleton
                 .rest_translation(id)
@@ -41,6 +42,7 @@ impl Bvh {
                 .map(rounded),
             channels: channels(skeleton.is_end_site(id), is_translated[id.index()], order),
             is_end_site: skeleton.is_end_site(id),
+            end_name: end_name(skeleton, id),
         });
         let joints: Vec<BvhJoint> = joints.collect();
         let mut values = Vec::new();
@@ -77,11 +79,30 @@ fn depth_first(skeleton: &Skeleton) -> Vec<JointId> {
         .collect()
 }
 
-/// The joint's own name, or what the reader calls an End Site.
-fn name(skeleton: &Skeleton, joint: JointId) -> String {
+/// An End Site is named in the file where its name says more than its parent's; in a comment, since that
+/// is what every reader reads past.
+fn end_name(skeleton: &Skeleton, joint: JointId) -> EndName {
     match skeleton.parent(joint) {
-        Some(parent) if skeleton.is_end_site(joint) => format!("{}_end", skeleton.name(parent)),
-        _ => skeleton.name(joint).to_owned(),
+        Some(parent) if skeleton.is_end_site(joint) => {
+            let implied = implied_end_name(skeleton.name(parent).as_bytes());
+            let name = skeleton.name(joint).as_bytes();
+            if name.is_empty() || name == implied {
+                EndName::Implied
+            } else {
+                EndName::Comment
+            }
+        }
+        _ => EndName::Implied,
+    }
+}
+
+fn name(skeleton: &Skeleton, joint: JointId) -> Vec<u8> {
+    let own = skeleton.name(joint).as_bytes();
+    match skeleton.parent(joint) {
+        Some(parent) if skeleton.is_end_site(joint) && own.is_empty() => {
+            implied_end_name(skeleton.name(parent).as_bytes())
+        }
+        _ => own.to_vec(),
     }
 }
 

@@ -26,6 +26,7 @@
 //! # Ok::<(), posekit_formats::report::ReadError>(())
 //! ```
 
+mod bridge;
 mod check;
 mod convert;
 mod decimal;
@@ -37,11 +38,12 @@ mod from_motion;
 mod read;
 mod write;
 
-pub use check::{CheckEntry, check, reader_entries};
-pub use document::{Bvh, BvhJoint, BvhMotion, InvalidBvh};
+pub use bridge::{Gap, GapError, JointGaps, bridge_gaps, gaps_by_joint};
+pub use check::{CheckEntry, check, check_with_gaps, reader_entries};
+pub use document::{Bvh, BvhJoint, BvhMotion, EndName, InvalidBvh};
 pub use fix::{Change, ChangeCode, FixConfig, Fixed, NameRepair, fix, unwrap_flips};
 pub use read::{
     Extent, MAX_DEPTH, MAX_JOINTS, MAX_NAME_BYTES, PROGRESS_BYTES, ReadOptions, RowParser, read,
-    read_with,
+    read_with, read_with_gaps,
 };
 pub use write::{Indent, LineEnding, WriteOptions, write, write_to};

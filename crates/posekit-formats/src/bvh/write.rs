@@ -5,7 +5,7 @@ use std::io;
 use posekit::motion::Channel;
 
 use super::decimal::Decimals;
-use super::{Bvh, BvhJoint, BvhMotion};
+use super::{Bvh, BvhJoint, BvhMotion, EndName};
 
 /// How the text looks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -43,7 +43,8 @@ const BUFFER_BYTES: usize = 1 << 16;
 ///
 /// Numbers are the shortest that read back as the same value, in plain decimal notation, since many
 /// readers do not take exponents; only beyond 10^±20 there is one. A joint without channels gets
-/// `CHANNELS 0`, as many readers want the line. Joints that are not in depth-first order are written in
+/// `CHANNELS 0`, as many readers want the line. An End Site has its name where and how the file that it came
+/// from had it ([`EndName`]). Joints that are not in depth-first order are written in
 /// it, as the format demands, and their columns with them. Bytes that would end a name or begin a
 /// comment are replaced by `_`.
 ///
@@ -165,8 +166,14 @@ fn write_joint(text: &mut Text, joint: &BvhJoint, depth: usize) {
         (false, None) => text.bytes.extend_from_slice(b"ROOT "),
         (false, Some(_)) => text.bytes.extend_from_slice(b"JOINT "),
     }
-    if !joint.is_end_site {
-        append_name(&mut text.bytes, &joint.name);
+    match joint.end_name {
+        _ if !joint.is_end_site => append_name(&mut text.bytes, &joint.name),
+        EndName::Implied => {}
+        EndName::Comment => {
+            text.bytes.extend_from_slice(b" #name: ");
+            append_in_comment(&mut text.bytes, &joint.name);
+        }
+        EndName::Word => append_word(&mut text.bytes, &joint.name),
     }
     text.end_line();
     text.line(depth, b"{");
@@ -202,6 +209,23 @@ fn append_name(bytes: &mut Vec<u8>, name: &[u8]) {
             byte
         });
     }
+}
+
+/// Appends the name of an End Site behind a blank, where a comment could begin at once.
+fn append_word(bytes: &mut Vec<u8>, name: &[u8]) {
+    bytes.push(b' ');
+    let start = bytes.len();
+    append_name(bytes, name);
+    if bytes[start..].starts_with(b"#") || bytes[start..].starts_with(b"//") {
+        bytes[start] = b'_';
+    }
+}
+
+/// Appends a name that a comment holds: only a brace and a line's end would cut it short.
+fn append_in_comment(bytes: &mut Vec<u8>, name: &[u8]) {
+    let ends_name = |byte| matches!(byte, b'{' | b'\n' | b'\r');
+    let name = name.trim_ascii().iter();
+    bytes.extend(name.map(|&byte| if ends_name(byte) { b'_' } else { byte }));
 }
 
 fn write_rows(

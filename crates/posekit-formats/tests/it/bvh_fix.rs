@@ -57,7 +57,7 @@ fn flips_of_real_files_are_unwrapped_without_moving_a_joint() {
         let name = path.display().to_string();
         let bytes = std::fs::read(&path).unwrap();
         let import = bvh::read(&bytes).unwrap();
-        let fixed = bvh::fix(&bytes, &import, &FixConfig::default());
+        let fixed = bvh::fix(&bytes, &import, &FixConfig::default()).unwrap();
         let flipping = flip_codes(&import.document);
         let unwrapped = fixed
             .changes
@@ -70,7 +70,8 @@ fn flips_of_real_files_are_unwrapped_without_moving_a_joint() {
             &[],
             &self::import(fixed.document.clone()),
             &FixConfig::default(),
-        );
+        )
+        .unwrap();
         assert!(again.changes.is_empty(), "{name}: {:?}", again.changes);
     }
 }
@@ -78,7 +79,7 @@ fn flips_of_real_files_are_unwrapped_without_moving_a_joint() {
 #[test]
 fn values_that_no_repair_touches_stay_the_same_to_the_bit() {
     let clean = walker::walk(Channels::Three);
-    let untouched = bvh::fix(&[], &import(clean.clone()), &FixConfig::default());
+    let untouched = bvh::fix(&[], &import(clean.clone()), &FixConfig::default()).unwrap();
     assert_eq!(untouched.document, clean);
     assert!(untouched.changes.is_empty());
 
@@ -88,7 +89,7 @@ fn values_that_no_repair_touches_stay_the_same_to_the_bit() {
     for frame in 40..60 {
         flipped.motion.as_mut().unwrap().values[frame * columns + column] += 360.0;
     }
-    let fixed = bvh::fix(&[], &import(flipped.clone()), &FixConfig::default());
+    let fixed = bvh::fix(&[], &import(flipped.clone()), &FixConfig::default()).unwrap();
     let [change] = fixed.changes.as_slice() else {
         panic!("{:?}", fixed.changes)
     };
@@ -118,7 +119,7 @@ fn what_the_reader_put_right_is_written_right() {
     let bytes = b"HIERARCHY\r\nROOT a\r\n{\r\nOFFSET 0 0 0\r\nCHANNELS 1 Zrotation\r\n}\r\n\
         MOTION\r\nFrames: 5\r\nFrame Time: 0.1\r\n1\r\n2.25\r\n";
     let import = bvh::read(bytes).unwrap();
-    let fixed = bvh::fix(bytes, &import, &FixConfig::default());
+    let fixed = bvh::fix(bytes, &import, &FixConfig::default()).unwrap();
     let codes: Vec<&str> = fixed
         .changes
         .iter()
@@ -132,6 +133,7 @@ fn what_the_reader_put_right_is_written_right() {
     assert!(again.report.first_repair().is_none());
     assert!(
         bvh::fix(&written, &again, &FixConfig::default())
+            .unwrap()
             .changes
             .is_empty()
     );
@@ -146,14 +148,16 @@ fn blanks_in_names_become_underscores_on_request_only() {
     let given = import(document);
     assert!(
         bvh::fix(&[], &given, &FixConfig::default())
+            .unwrap()
             .changes
             .is_empty()
     );
     let config = FixConfig {
         names: NameRepair::BlanksToUnderscores,
+        frame_time_secs: None,
         check: CheckConfig::default(),
     };
-    let fixed = bvh::fix(&[], &given, &config);
+    let fixed = bvh::fix(&[], &given, &config).unwrap();
     let codes: Vec<ChangeCode> = fixed.changes.iter().map(|change| change.code).collect();
     assert_eq!(codes, [ChangeCode::NameBlanks, ChangeCode::NameKept]);
     assert_eq!(fixed.document.joints[1].name(), "Upper_Chest");

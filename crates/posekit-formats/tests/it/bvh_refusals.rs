@@ -59,6 +59,38 @@ fn numbers_that_are_none() {
     }
 }
 
+/// BVH has no quaternions; programs that write them all the same do so in one of these ways.
+#[test]
+fn quaternion_channels_are_refused_by_that_name() {
+    for word in [
+        "Wrotation",
+        "WROTATION",
+        "Quaternion",
+        "quat",
+        "Qx",
+        "qw",
+        "Xquaternion",
+        "Qzrotation",
+    ] {
+        let text = HEAD.replacen("Zrotation", word, 1);
+        let error = bvh::read(text.as_bytes()).unwrap_err();
+        assert_eq!(error.kind, Kind::UnknownChannel);
+        let found = format!("the quaternion channel `{word}`, which BVH does not have");
+        assert_eq!(error.found, found, "{error}");
+    }
+    for (name, line, column) in [("quat_channels.bvh", 5, 72), ("quat_word.bvh", 5, 45)] {
+        let Some(text) = crate::cases::bytes(name) else {
+            return;
+        };
+        let error = bvh::read(&text).unwrap_err();
+        assert!(error.found.contains("quaternion"), "{error}");
+        assert_eq!((error.location.line, error.location.column), (line, column));
+    }
+    let text = HEAD.replacen("Zrotation", "Twist", 1);
+    let error = bvh::read(text.as_bytes()).unwrap_err();
+    assert_eq!(error.found, "`Twist`");
+}
+
 #[test]
 fn text_where_a_number_belongs() {
     for word in [

@@ -2,8 +2,10 @@
 
 use crate::bvh_text::{HEAD, assert_at, assert_codes, import, values_with, with_rows};
 use posekit::motion::Channel::{self, Position, Rotation};
+use posekit::motion::PositionPolicy;
 use posekit::rotation::Axis::{X, Y, Z};
-use posekit_formats::bvh;
+use posekit::rotation::EulerOrder;
+use posekit_formats::bvh::{self, EndName};
 use posekit_formats::report::WarningCode as Code;
 
 /// One joint with the given inside of its braces, and no motion.
@@ -296,6 +298,76 @@ fn an_end_site_with_a_name_of_its_own() {
     );
     assert_at(&import, Code::EndSiteWords, 10, 5, "`effector`");
     assert!(import.document.joints[2].is_end_site);
+}
+
+fn end_of(ending: &str) -> bvh::BvhJoint {
+    let import = import(HEAD.replace("End Site", ending).replace("MOTION\n", ""));
+    let end = import.document.joints[2].clone();
+    let written = bvh::write(&import.document);
+    assert_eq!(bvh::read(&written).unwrap().document, import.document);
+    end
+}
+
+/// Two programs give End Sites names, each in its own way: they are read and written again.
+#[test]
+fn the_name_of_an_end_site_is_kept() {
+    for (ending, name, end_name) in [
+        ("End Site", "Chest_end", EndName::Implied),
+        ("End Site # a comment", "Chest_end", EndName::Implied),
+        ("End Site #name:", "Chest_end", EndName::Implied),
+        ("End Site #name: TailTip", "TailTip", EndName::Comment),
+        (
+            "end site # Name : Tail #2 tip ",
+            "Tail #2 tip",
+            EndName::Comment,
+        ),
+        ("End Site TailTip", "TailTip", EndName::Word),
+        ("End Site Tail tip // the last", "Tail tip", EndName::Word),
+    ] {
+        let end = end_of(ending);
+        assert_eq!(
+            (end.name().as_ref(), end.end_name),
+            (name, end_name),
+            "{ending}"
+        );
+        assert!(end.is_end_site);
+    }
+    let noted = import(
+        HEAD.replace("End Site", "End Site #name: Tip")
+            .replace("MOTION\n", ""),
+    );
+    assert_codes(&noted, &[Code::MissingMotion]);
+}
+
+#[test]
+fn the_named_end_sites_of_a_real_exporter_are_written_again() {
+    let Some(text) = crate::cases::bytes("named_end.bvh") else {
+        return;
+    };
+    let document = bvh::read(&text).unwrap().document;
+    let written = String::from_utf8(bvh::write(&document)).unwrap();
+    for name in ["TailTip", "Foot_L_Nub"] {
+        assert!(document.joints.iter().any(|joint| joint.name() == name));
+        assert!(
+            written.contains(&format!("\t\tEnd Site #name: {name}\n")),
+            "{written}"
+        );
+    }
+    // What is made from the motion has them too: scenes are baked so.
+    let motion = document.to_motion(PositionPolicy::default()).unwrap();
+    let made = bvh::Bvh::from_motion(&motion, EulerOrder::ZXY);
+    assert_eq!(
+        made.joints
+            .iter()
+            .map(|joint| &joint.name)
+            .collect::<Vec<_>>(),
+        document
+            .joints
+            .iter()
+            .map(|joint| &joint.name)
+            .collect::<Vec<_>>(),
+    );
+    assert_eq!(made.joints[2].end_name, EndName::Comment);
 }
 
 /// Several skeletons in one file, their columns one after another.

@@ -12,6 +12,7 @@ mod bvh_refusals;
 mod bvh_text;
 mod bvh_wild_hierarchy;
 mod bvh_wild_motion;
+mod cases;
 mod check_clip;
 mod check_corruptions;
 mod check_damage;

@@ -3,7 +3,7 @@
 
 use posekit::motion::Channel;
 use posekit::rotation::Axis;
-use posekit_formats::bvh::{Bvh, BvhJoint, BvhMotion};
+use posekit_formats::bvh::{Bvh, BvhJoint, BvhMotion, EndName};
 
 /// Length of thigh and shank.
 const BONE: f64 = 0.45;
@@ -125,6 +125,7 @@ fn joint(name: &str, parent: Option<usize>, offset: [f64; 3], channels: Channels
         offset,
         channels: positions.iter().chain(&ROTATIONS).copied().collect(),
         is_end_site: false,
+        end_name: EndName::Implied,
     }
 }
 
@@ -135,6 +136,7 @@ fn end(name: &str, parent: usize, offset: [f64; 3]) -> BvhJoint {
         offset,
         channels: Vec::new(),
         is_end_site: true,
+        end_name: EndName::Implied,
     }
 }
 

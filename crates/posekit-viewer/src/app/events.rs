@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use egui::ColorImage;
+use posekit::figure::UpAxis;
 
 use super::Viewer;
 #[cfg(not(target_arch = "wasm32"))]
@@ -11,7 +12,7 @@ use crate::load::{Chosen, Event, Listing, Purpose, Summary};
 use crate::panels::library::Preview;
 use crate::picture::Texture;
 use crate::state::animate::Authored;
-use crate::state::clip::Clip;
+use crate::state::clip::{Clip, ReadingSaid};
 use crate::state::library::EntryState;
 use crate::state::notices::NoticeKind;
 use crate::state::session::ClipId;
@@ -86,12 +87,16 @@ impl Viewer {
     ) {
         let repaired = clip.report.first_repair().map(ToString::to_string);
         let name = clip.name.clone();
+        let is_authored = authored.is_some();
         let id = self.take_in(purpose, clip);
         if let Some(authored) = authored {
             self.session.put_authored(id, authored);
             self.adopt_kept(id);
         }
         self.opened(ctx, id, thumbnail);
+        if !is_authored && self.reading.up.is_none() {
+            self.tell_stood(ctx, id);
+        }
         if let Some(repaired) = repaired {
             let text = format!("{name} was repaired while it was read: {repaired}");
             let now = ctx.input(|i| i.time);
@@ -99,7 +104,35 @@ impl Viewer {
         }
     }
 
+    /// Says that a figure was stood on another axis than its file's Y.
+    fn tell_stood(&mut self, ctx: &egui::Context, id: ClipId) {
+        let Some(clip) = self
+            .session
+            .clip(id)
+            .filter(|clip| clip.reading.up != UpAxis::Y)
+        else {
+            return;
+        };
+        let (name, up) = (&clip.name, clip.reading.up);
+        let text =
+            format!("{name}: {up} is up, as the rest pose stands; the inspector has the choice");
+        self.notices
+            .add(NoticeKind::Done, text, ctx.input(|i| i.time));
+    }
+
     fn take_in(&mut self, purpose: Purpose, clip: Clip) -> ClipId {
+        // A file that is read again is read as it was.
+        let clip = match purpose {
+            Purpose::Replace(id) => {
+                let before = self.session.clip(id).map(|clip| clip.reading);
+                let said = before.map_or(self.reading, |reading| ReadingSaid {
+                    positions: Some(reading.positions),
+                    up: Some(reading.up),
+                });
+                said.apply(clip)
+            }
+            Purpose::Group(_) | Purpose::Beside => self.reading.apply(clip),
+        };
         match purpose {
             Purpose::Group(group) if self.groups_opened.insert(group) => self.session.open(clip),
             Purpose::Group(_) | Purpose::Beside => self.session.open_beside(clip),

@@ -34,7 +34,7 @@ use crate::picture::thumbnail::thumbnail;
 use crate::picture::{Texture, to_color_image};
 use crate::state::animate::pose_library::PoseLibrary;
 use crate::state::arm::ArmLab;
-use crate::state::clip::Clip;
+use crate::state::clip::{Clip, ReadingSaid};
 use crate::state::interpolation::InterpolationLab;
 use crate::state::library::Library;
 use crate::state::notices::{NoticeKind, Notices};
@@ -61,6 +61,8 @@ pub struct ViewerOptions {
     pub paths: Vec<PathBuf>,
     /// Clips that are in memory already.
     pub inputs: Vec<Input>,
+    /// How the numbers of files are read, where that was said.
+    pub reading: ReadingSaid,
     /// What draws the view.
     pub renderer: RendererChoice,
     /// Clips that a server offers, to be listed.
@@ -78,6 +80,7 @@ pub struct Viewer {
     interpolation: InterpolationLab,
     interpolation_panel: InterpolationPanel,
     loader: Loader,
+    reading: ReadingSaid,
     painter: Painter,
     library: Library<Preview>,
     pictures: BTreeMap<ClipId, Texture>,
@@ -144,6 +147,7 @@ impl Viewer {
             interpolation: InterpolationLab::default(),
             interpolation_panel: InterpolationPanel::default(),
             loader,
+            reading: options.reading,
             painter: Painter::new(ctx, graphics, options.renderer),
             library: Library::default(),
             pictures: BTreeMap::new(),

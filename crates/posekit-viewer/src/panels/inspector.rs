@@ -6,7 +6,7 @@ use egui::{RichText, ScrollArea, Ui, vec2};
 use posekit::check::{Finding, Severity};
 
 use super::transport::severity_color;
-use super::{Asked, Request, edit, ik, row, scene, things, tip};
+use super::{Asked, Request, edit, ik, reading, row, scene, things, tip};
 use crate::command::Command;
 use crate::icons::{self, Icon, icon_button};
 use crate::state::clip::Clip;
@@ -57,6 +57,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, checking: Checking, asked: &mut 
                 row::divider(ui);
                 report(ui, &clip);
             }
+            reading::show(ui, session, &clip);
         });
 }
 

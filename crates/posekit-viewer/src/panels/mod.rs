@@ -13,6 +13,7 @@ pub mod joints;
 pub mod library;
 pub mod notices;
 pub mod pose_library;
+pub mod reading;
 pub mod row;
 pub mod scene;
 pub mod things;

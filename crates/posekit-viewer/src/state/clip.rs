@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use glam::Vec3;
 use posekit::check::{CheckConfig, Finding, check_channels, check_motion};
-use posekit::motion::{GlobalMotion, Motion, PositionPolicy};
+use posekit::figure::{UpAxis, guess_up};
+use posekit::motion::{GlobalMotion, Motion, PositionPolicies};
 use posekit::pose::{GlobalPose, LocalPose, forward_kinematics};
 use posekit::rotation::EulerOrder;
 use posekit::skeleton::{JointId, Skeleton, SkeletonError};
@@ -27,6 +28,68 @@ pub enum Source {
     Scene(Option<PathBuf>),
 }
 
+/// What a file does not say about itself: how its numbers are to be read.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Reading {
+    /// What position channels do with OFFSETs.
+    pub positions: PositionPolicies,
+    /// The axis that points up in the file; the motion is stood on Y.
+    pub up: UpAxis,
+}
+
+/// What the user said of all files that are opened, in place of what is seen in them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ReadingSaid {
+    /// What position channels do with OFFSETs.
+    pub positions: Option<PositionPolicies>,
+    /// The axis that points up.
+    pub up: Option<UpAxis>,
+}
+
+impl ReadingSaid {
+    /// A clip of a file, read as was said. Other clips, and those that cannot be read so, stay.
+    #[must_use]
+    pub fn apply(self, clip: Clip) -> Clip {
+        let reading = Reading {
+            positions: self.positions.unwrap_or(clip.reading.positions),
+            up: self.up.unwrap_or(clip.reading.up),
+        };
+        let is_file = matches!(clip.source, Source::File(_) | Source::Bytes);
+        if !is_file || reading == clip.reading {
+            return clip;
+        }
+        clip.read_as(reading).unwrap_or(clip)
+    }
+}
+
+impl Reading {
+    /// As files are read when nobody says otherwise: positions are places, and up is the axis that the rest
+    /// pose says, where that is clear.
+    #[must_use]
+    pub fn seen_in(motion: &Motion) -> Self {
+        let known = guess_up(motion).filter(|guess| guess.is_known());
+        Self {
+            positions: PositionPolicies::default(),
+            up: known.map_or(UpAxis::Y, |guess| guess.up),
+        }
+    }
+
+    /// The motion of a document, stood on Y.
+    ///
+    /// # Errors
+    /// If the document makes no skeleton.
+    pub fn motion_of(self, document: &Bvh) -> Result<Motion, SkeletonError> {
+        Ok(self.stood(document.to_motion(self.positions)?))
+    }
+
+    fn stood(self, motion: Motion) -> Motion {
+        match self.up {
+            UpAxis::Y => motion,
+            up => motion.turned(up.y_up_from_file()),
+        }
+    }
+}
+
 /// One opened motion.
 #[derive(Clone, Debug)]
 pub struct Clip {
@@ -38,7 +101,9 @@ pub struct Clip {
     pub document: Arc<Bvh>,
     /// What the reader noticed and repaired.
     pub report: ImportReport,
-    /// The motion.
+    /// How its numbers are read.
+    pub reading: Reading,
+    /// The motion, stood on Y.
     pub motion: Arc<Motion>,
     /// Its forward kinematics.
     pub global: Arc<GlobalMotion>,
@@ -56,14 +121,26 @@ impl Clip {
         source: Source,
         import: Import<Bvh>,
     ) -> Result<Self, SkeletonError> {
-        let motion = import.document.to_motion(PositionPolicy::default())?;
-        Ok(Self::new(
-            name.into(),
-            source,
-            import.document,
-            import.report,
-            motion,
-        ))
+        let motion = import.document.to_motion(PositionPolicies::default())?;
+        let reading = Reading::seen_in(&motion);
+        let motion = reading.stood(motion);
+        let clip = Self::new(name.into(), source, import.document, import.report, motion);
+        Ok(Self { reading, ..clip })
+    }
+
+    /// The same clip, its numbers read in another way. Edits stay; findings are to be looked for anew.
+    ///
+    /// # Errors
+    /// If the document makes no skeleton.
+    pub fn read_as(&self, reading: Reading) -> Result<Self, SkeletonError> {
+        let motion = reading.motion_of(&self.document)?;
+        Ok(Self {
+            reading,
+            global: Arc::new(motion.to_global()),
+            motion: Arc::new(motion),
+            findings: Vec::new(),
+            ..self.clone()
+        })
     }
 
     /// A clip of a motion that no file holds.
@@ -94,10 +171,8 @@ impl Clip {
         self.document = Arc::new(Bvh::from_motion(&motion, EulerOrder::ZXY));
         self.global = Arc::new(motion.to_global());
         self.motion = motion;
-        // What was wrong with its own text is gone with it; the files that a scene names are as they were.
-        self.report
-            .warnings
-            .retain(|warning| warning.file.is_some());
+        self.reading = Reading::default();
+        self.report = ImportReport::default();
     }
 
     fn new(
@@ -113,6 +188,7 @@ impl Clip {
             source,
             document: Arc::new(document),
             report,
+            reading: Reading::default(),
             motion: Arc::new(motion),
             global: Arc::new(global),
             findings: Vec::new(),
@@ -161,7 +237,7 @@ impl Clip {
     pub fn scaled_motion(&self, factor: f64) -> Option<Motion> {
         let mut document = (*self.document).clone();
         posekit_formats::bvh::edit::scale(&mut document, factor).ok()?;
-        document.to_motion(PositionPolicy::default()).ok()
+        self.reading.motion_of(&document).ok()
     }
 
     /// The nearest frame to a time.
@@ -220,7 +296,21 @@ pub fn still(skeleton: &Arc<Skeleton>, pose: &LocalPose) -> Motion {
 #[must_use]
 pub fn check(clip: &Clip) -> Vec<Finding> {
     let config = CheckConfig::default();
-    let mut findings = check_motion(&clip.motion, &clip.global, &config);
+    let relative = clip
+        .document
+        .relative_positions(&clip.motion, clip.reading.positions);
+    let meant = relative.as_ref().and_then(|relative| {
+        let reading = Reading {
+            positions: relative.policies,
+            ..clip.reading
+        };
+        reading.motion_of(&clip.document).ok()
+    });
+    let mut findings = match &meant {
+        Some(motion) => check_motion(motion, &motion.to_global(), &config),
+        None => check_motion(&clip.motion, &clip.global, &config),
+    };
+    findings.extend(relative.map(|relative| relative.finding));
     if let Some(motion) = &clip.document.motion {
         let layout = clip.document.channel_layout();
         findings.extend(check_channels(

@@ -15,6 +15,7 @@ mod numbers;
 mod pictures;
 mod poses;
 mod reading;
+mod reading_as;
 mod real_files;
 mod saving;
 mod scenes;

@@ -47,7 +47,7 @@ pub(super) fn sample_frames(frame_count: usize) -> impl Iterator<Item = usize> {
     (0..count).map(move |sample| sample * frame_count / count)
 }
 
-fn carrying_joint(skeleton: &Skeleton) -> JointId {
+pub(super) fn carrying_joint(skeleton: &Skeleton) -> JointId {
     let root = JointId::new(0);
     let mut joint = root;
     loop {

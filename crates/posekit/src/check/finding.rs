@@ -63,6 +63,8 @@ finding_codes! {
     FrameTimeImplausible, "frame-time-implausible";
     /// The motion obeys gravity or the laws of walking only if it is played faster or slower.
     PlaybackSpeedImplausible, "playback-speed-implausible";
+    /// Values of the file are no numbers: `nan`, `inf` or beyond what a number can be.
+    NotFinite, "not-finite";
     /// The first frame is a reference pose that the motion does not continue.
     ReferenceFirstFrame, "reference-first-frame";
     /// Rotation channels jump although the rotation that they make is continuous.
@@ -95,6 +97,8 @@ finding_codes! {
     BoneLengthChanges, "bone-length-changes";
     /// Position channels put a joint somewhere else than its OFFSET all the time.
     OffsetUnlikeMotion, "offset-unlike-motion";
+    /// Position channels are relative to the OFFSET, or zero where they should hold a place.
+    PositionsRelativeToOffset, "positions-relative-to-offset";
     /// The rest pose that the OFFSETs make does not look like the figure that moves.
     RestPoseUnlikeMotion, "rest-pose-unlike-motion";
 }

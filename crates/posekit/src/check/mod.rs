@@ -46,6 +46,7 @@ mod figure;
 mod finding;
 mod floor;
 mod gait;
+mod positions;
 mod proportions;
 mod sliding;
 mod statistics;
@@ -58,6 +59,7 @@ pub use contact::{Contact, FloorContacts, floor_contacts};
 pub use euler_branch::{EulerBranch, EulerStep, EulerTracker};
 pub use figure::{Figure, figure};
 pub use finding::{Finding, FindingCode, FrameRange, Severity, Unit, sort_findings};
+pub use positions::{RelativePositions, relative_positions};
 
 use crate::motion::{GlobalMotion, Motion};
 

@@ -77,7 +77,7 @@ fn drift(motion: &Motion, joint: JointId) -> f32 {
         .map_or(0.0, |(low, high)| low.distance(high))
 }
 
-fn frames_looked_at(motion: &Motion) -> impl Iterator<Item = usize> + use<> {
+pub(super) fn frames_looked_at(motion: &Motion) -> impl Iterator<Item = usize> + use<> {
     let step = motion.frame_count().div_ceil(FRAMES_LOOKED_AT).max(1);
     (0..motion.frame_count()).step_by(step)
 }

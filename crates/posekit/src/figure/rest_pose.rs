@@ -64,7 +64,10 @@ pub enum ArmPosture {
 
 /// A pair of limbs: where they part, and the left and the right one from there to their ends.
 #[derive(Clone, Copy)]
-struct LimbPair {
+pub(super) struct LimbPair {
+    pub(super) parting_joint: JointId,
+    /// The ends of the left and the right limb.
+    pub(super) ends: [JointId; 2],
     parting_depth: usize,
     parting: Vec3,
     left: Vec3,
@@ -136,7 +139,10 @@ fn arm_posture(arms: &LimbPair, up: Vec3, left: Vec3) -> ArmPosture {
     }
 }
 
-fn legs_and_arms(skeleton: &Skeleton, rest: &GlobalPose) -> Option<(LimbPair, LimbPair)> {
+pub(super) fn legs_and_arms(
+    skeleton: &Skeleton,
+    rest: &GlobalPose,
+) -> Option<(LimbPair, LimbPair)> {
     let mut limbs: Vec<LimbPair> = skeleton
         .symmetric_pairs()
         .into_iter()
@@ -180,6 +186,8 @@ fn limb_pair(
     let right_start = chain.descending().get(1)?;
     let place = |joint: JointId| rest.positions[joint.index()];
     Some(LimbPair {
+        parting_joint: chain.top(),
+        ends: [left, right],
         parting_depth: skeleton.depth(chain.top()),
         parting: place(chain.top()),
         left: place(left) - place(*left_start),

@@ -31,13 +31,53 @@ impl ChannelLayout {
     }
 }
 
-/// What position channels do with the OFFSET of their joint, where it is not zero.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// What a joint's position channels do with its OFFSET, where that is not zero.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum PositionPolicy {
     /// They replace it, coordinate by coordinate, as Blender and BVHView read them.
     #[default]
     Replace,
-    /// A root's are added to its OFFSET, as the original BVH description has it; other joints'
-    /// replace theirs.
-    AddToRootOffset,
+    /// They are added to it, as the original BVH description has it for roots.
+    Add,
+    /// They count for nothing: the joint stays at its OFFSET.
+    Ignore,
+}
+
+/// What position channels do with the OFFSETs of a skeleton: a root's say where the figure is, those
+/// of other joints how long its bones are, and programs that write the one in one way write the
+/// other in another.
+///
+/// One [`PositionPolicy`] is that of all joints:
+///
+/// ```
+/// use posekit::motion::{PositionPolicies, PositionPolicy};
+///
+/// let policies: PositionPolicies = PositionPolicy::Add.into();
+/// assert_eq!(policies.root, policies.others);
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct PositionPolicies {
+    /// For joints without a parent.
+    pub root: PositionPolicy,
+    /// For all others.
+    pub others: PositionPolicy,
+}
+
+impl PositionPolicies {
+    /// That of a joint with this parent.
+    pub fn of_joint_below<T>(self, parent: Option<T>) -> PositionPolicy {
+        match parent {
+            None => self.root,
+            Some(_) => self.others,
+        }
+    }
+}
+
+impl From<PositionPolicy> for PositionPolicies {
+    fn from(policy: PositionPolicy) -> Self {
+        Self {
+            root: policy,
+            others: policy,
+        }
+    }
 }

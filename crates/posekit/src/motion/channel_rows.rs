@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use glam::{Quat, Vec3};
 
-use super::{Channel, ChannelLayout, Motion, PositionPolicy, Tracks, check_frame_time};
+use super::{
+    Channel, ChannelLayout, Motion, PositionPolicies, PositionPolicy, Tracks, check_frame_time,
+};
 use crate::lanes::{self, Kernel, LANES, QuatLanes, Register, Vec3Lanes};
 use crate::rotation::Axis;
 use crate::rotation::sincos_lanes::{repeat_last_row, row_starts, set_quats_from_rows_deg};
@@ -27,10 +29,10 @@ impl Motion {
         frame_time_secs: f64,
         layout: &ChannelLayout,
         rows: &[f64],
-        policy: PositionPolicy,
+        policies: impl Into<PositionPolicies>,
     ) -> Self {
         let mut motion = Self::at_rest(skeleton, 0, frame_time_secs, []);
-        motion.set_channel_rows(frame_time_secs, layout, rows, policy);
+        motion.set_channel_rows(frame_time_secs, layout, rows, policies);
         motion
     }
 
@@ -46,9 +48,9 @@ impl Motion {
         frame_time_secs: f64,
         layout: &ChannelLayout,
         rows: &[f64],
-        policy: PositionPolicy,
+        policies: impl Into<PositionPolicies>,
     ) {
-        self.set_channel_rows_by(frame_time_secs, layout, rows, policy, |kernel| {
+        self.set_channel_rows_by(frame_time_secs, layout, rows, policies.into(), |kernel| {
             lanes::run(kernel);
         });
     }
@@ -59,7 +61,7 @@ impl Motion {
         frame_time_secs: f64,
         layout: &ChannelLayout,
         rows: &[f64],
-        policy: PositionPolicy,
+        policies: PositionPolicies,
         run: impl FnOnce(FillBlocks<'_>),
     ) {
         check_frame_time(frame_time_secs);
@@ -68,11 +70,14 @@ impl Motion {
             .columns()
             .iter()
             .filter(|(_, channel)| matches!(channel, Channel::Position(_)))
+            .filter(|(joint, _)| {
+                policies.of_joint_below(self.skeleton.parent(*joint)) != PositionPolicy::Ignore
+            })
             .map(|&(joint, _)| joint);
         self.translated = Tracks::new(self.skeleton.joint_count(), positioned);
         self.frame_count = rows.len().checked_div(column_count).unwrap_or(0);
         self.frame_time_secs = frame_time_secs;
-        let (rotation_steps, translation_steps) = steps(self, layout, policy);
+        let (rotation_steps, translation_steps) = steps(self, layout, policies);
         let block_count = self.block_count();
         make_room(&mut self.rotations, block_count * rotation_steps.len());
         make_room(
@@ -129,7 +134,7 @@ struct PositionChannel {
 fn steps(
     motion: &Motion,
     layout: &ChannelLayout,
-    policy: PositionPolicy,
+    policies: PositionPolicies,
 ) -> (Vec<RotationStep>, Vec<TranslationStep>) {
     let joints = columns_by_joint(&motion.skeleton, layout);
     let rotated = motion.rotated.joints.iter();
@@ -137,6 +142,7 @@ fn steps(
     let rotation_step =
         |&joint: &JointId| rotation_step(&motion.skeleton, joint, &joints[joint.index()]);
     let translation_step = |&joint: &JointId| {
+        let policy = policies.of_joint_below(motion.skeleton.parent(joint));
         translation_step(&motion.skeleton, joint, &joints[joint.index()], policy)
     };
     (
@@ -187,8 +193,8 @@ fn translation_step(
 ) -> TranslationStep {
     let rest = skeleton.rest_translation(joint);
     let base = match policy {
-        PositionPolicy::AddToRootOffset if skeleton.parent(joint).is_none() => rest,
-        PositionPolicy::AddToRootOffset | PositionPolicy::Replace => Vec3::ZERO,
+        PositionPolicy::Add => rest,
+        PositionPolicy::Replace | PositionPolicy::Ignore => Vec3::ZERO,
     };
     let channel = |&(column, axis): &(usize, Axis)| PositionChannel {
         column,

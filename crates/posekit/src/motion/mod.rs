@@ -14,6 +14,7 @@ mod channel_rows;
 mod global;
 #[cfg(test)]
 mod same_bits;
+mod turned;
 
 use std::fmt;
 use std::sync::Arc;
@@ -26,7 +27,7 @@ use crate::rotation::slerp_f32;
 use crate::skeleton::{JointId, Skeleton};
 
 pub use channel::Channel;
-pub use channel_layout::{ChannelLayout, PositionPolicy};
+pub use channel_layout::{ChannelLayout, PositionPolicies, PositionPolicy};
 pub use global::GlobalMotion;
 
 /// Marks a joint that has no track of a kind.

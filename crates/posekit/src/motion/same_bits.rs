@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use glam::{EulerRot, Quat, Vec3};
 
-use super::{Channel, ChannelLayout, GlobalMotion, Motion, PositionPolicy};
+use super::{Channel, ChannelLayout, GlobalMotion, Motion, PositionPolicies, PositionPolicy};
 use crate::lanes::{Lanes, run_portable};
 use crate::pose::{GlobalPose, forward_kinematics};
 use crate::rotation::Axis;
@@ -19,7 +19,7 @@ struct Clip {
     rows: Vec<f64>,
 }
 
-fn motions(clip: &Clip, policy: PositionPolicy) -> [Motion; 2] {
+fn motions(clip: &Clip, policy: PositionPolicies) -> [Motion; 2] {
     let skeleton = || Arc::clone(&clip.skeleton);
     let widest = Motion::from_channel_rows(skeleton(), 0.01, &clip.layout, &clip.rows, policy);
     let mut portable = Motion::at_rest(skeleton(), 0, 0.0, []);
@@ -46,7 +46,12 @@ fn motion_bits(motion: &Motion) -> [Vec<u32>; 2] {
 }
 
 fn assert_same_bits(clip: &Clip, what: &str) {
-    for policy in [PositionPolicy::Replace, PositionPolicy::AddToRootOffset] {
+    let add_at_root = PositionPolicies {
+        root: PositionPolicy::Add,
+        ..PositionPolicies::default()
+    };
+    let ignore = PositionPolicy::Ignore.into();
+    for policy in [PositionPolicy::Replace.into(), add_at_root, ignore] {
         let [widest, portable] = motions(clip, policy);
         assert_eq!(motion_bits(&widest), motion_bits(&portable), "{what}: rows");
         assert_same_global_bits(&widest, what);
@@ -258,7 +263,7 @@ fn refilled_motions_are_what_new_ones_are() {
         let joint = [root, child][round % 2];
         let layout = ChannelLayout::new(both.clone().map(|channel| (joint, channel)));
         let rows: Vec<f64> = (0..3 * frames).map(|_| numbers.next() * 90.0).collect();
-        let policy = PositionPolicy::Replace;
+        let policy = PositionPolicies::default();
         motion.set_channel_rows(0.5, &layout, &rows, policy);
         let new = Motion::from_channel_rows(Arc::clone(&skeleton), 0.5, &layout, &rows, policy);
         assert_eq!(motion.frame_count(), frames);

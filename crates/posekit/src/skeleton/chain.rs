@@ -1,6 +1,7 @@
 //! The path of joints between two joints.
 
 use super::{JointId, Skeleton};
+use crate::pose::LocalPose;
 
 /// The path of joints between two joints of one skeleton.
 ///
@@ -71,5 +72,17 @@ impl Chain {
     pub fn rest_length(&self, skeleton: &Skeleton) -> f32 {
         let bones = self.joints.iter().filter(|&&joint| joint != self.top());
         bones.map(|&joint| skeleton.bone_length(joint)).sum()
+    }
+
+    /// The same sum with the lengths that the bones have in a pose: of a skeleton whose OFFSETs are all zero
+    /// only the motion says how long they are.
+    ///
+    /// # Panics
+    /// If the pose has fewer joints than the chain's skeleton.
+    pub fn length_in(&self, pose: &LocalPose) -> f32 {
+        let bones = self.joints.iter().filter(|&&joint| joint != self.top());
+        bones
+            .map(|joint| pose.translations[joint.index()].length())
+            .sum()
     }
 }

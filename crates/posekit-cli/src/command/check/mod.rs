@@ -6,8 +6,7 @@ use std::io::Write;
 use clap::{Args, ValueEnum};
 use posekit::check::{CheckConfig, FindingCode, Severity};
 use posekit_formats::bvh::{self, CheckEntry};
-use posekit_formats::report::{Location, WarningCode};
-use posekit_formats::urdf;
+use posekit_formats::report::{Import, WarningCode};
 use serde_json::{Value, json};
 
 use crate::args::Global;
@@ -16,8 +15,8 @@ use crate::console;
 use crate::failure::Failure;
 use crate::inputs::{self, Input};
 use crate::load::{self, Subject};
+use crate::positions::PositionsArgs;
 use crate::program::ProgramArg;
-use crate::root_offset::RootOffset;
 use crate::similar;
 use crate::text::counted;
 
@@ -49,16 +48,15 @@ pub(crate) struct CheckArgs {
     /// Show only findings that are at least this serious [default: info; of several files, for people, warning]
     #[arg(long, value_name = "SEVERITY")]
     min: Option<Minimum>,
-    /// Whether a root's position channels replace its OFFSET or are added to it
-    #[arg(long, value_name = "HOW", default_value = "replace")]
-    root_offset: RootOffset,
+    #[command(flatten)]
+    positions: PositionsArgs,
     /// Say whether these programs read the file as posekit does, and what convert --for would change; may be
     /// repeated
     #[arg(
         long = "for",
         value_name = "PROGRAM",
         value_delimiter = ',',
-        conflicts_with_all = ["deny", "warn", "min", "summary", "root_offset"]
+        conflicts_with_all = ["deny", "warn", "min", "summary", "positions", "root_offset"]
     )]
     programs: Vec<ProgramArg>,
     /// Only the table that ends the output: a line for each code, the worst first
@@ -200,15 +198,16 @@ fn check(
     global: &Global,
 ) -> Result<Checked, Failure> {
     let name = input.name();
-    let subject = load::load_subject(input, global)?;
+    let (subject, gaps) = load::load_subject_with_gaps(input, global)?;
     // `posekit fix` mends motion files.
     let is_motion = matches!(subject, Subject::Clip(_));
     let mut entries = match subject {
         Subject::Robot(import) => urdf::check(&import.document, &import.report),
         Subject::Clip(import) => {
-            let policy = args.root_offset.policy();
+            let policies = args.positions.policies();
             let config = CheckConfig::default();
-            bvh::check(&import.document, &import.report, policy, &config)
+            let Import { document, report } = &import;
+            bvh::check_with_gaps(document, &gaps, report, policies, &config)
                 .map_err(|error| Failure::new(error.to_string()).in_file(&name))?
         }
     };

@@ -10,8 +10,8 @@ use posekit_formats::bvh::{Bvh, BvhJoint};
 use super::{Channels, ConvertArgs};
 use crate::failure::Failure;
 use crate::program::ProgramArg;
-use crate::text::{counted, trimmed};
-use crate::{select, similar};
+use crate::text::{counted, decimals_to_show, trimmed};
+use crate::{select, similar, up};
 
 /// What to tell the user of a change that was made.
 #[derive(Debug, Default)]
@@ -29,11 +29,15 @@ pub(super) fn apply(
     bvh: &mut Bvh,
 ) -> Result<Remarks, Failure> {
     let mut remarks = Remarks::default();
+    edit::settle_positions(bvh, args.positions.policies());
     for Rename { from, to } in &args.rename {
         edit::rename(bvh, from, to).map_err(|error| unknown_joint(error, from, bvh))?;
     }
     if let Some(model) = model {
         edit::reorder_like(bvh, model).map_err(refused)?;
+    }
+    if let Some(secs) = args.frame_time {
+        edit::set_frame_time(bvh, secs).map_err(refused)?;
     }
     if let Some(trim) = &args.trim {
         let range = trim.frames(bvh)?;
@@ -51,15 +55,25 @@ pub(super) fn apply(
     if let Some(factor) = args.scale {
         edit::scale(bvh, factor).map_err(refused)?;
     }
-    if let Some(up) = args.up {
-        let from = args
-            .from_up
-            .map(super::Up::axis)
-            .or_else(|| edit::guess_up_axis(bvh));
-        let from = from.ok_or_else(|| {
-            Failure::new("cannot see which axis points up now").try_next("say it with --from-up")
-        })?;
-        edit::turn_up(bvh, from, up.axis());
+    if let Some(to) = args.up {
+        let from = match args.from_up {
+            Some(from) => from,
+            None => {
+                let guess = edit::guess_up_axis(bvh).ok_or_else(|| {
+                    Failure::new("cannot see which axis points up now")
+                        .try_next("say it with --from-up")
+                })?;
+                if !guess.is_known() {
+                    remarks.notes.push(format!(
+                        "took {} for the axis that points up now, {}; --from-up says it",
+                        guess.up,
+                        up::because(guess)
+                    ));
+                }
+                guess.up
+            }
+        };
+        edit::turn_up(bvh, from, to);
     }
     match args.channels {
         Some(Channels::Three) => {
@@ -90,7 +104,7 @@ fn kept_remark(bvh: &Bvh, kept: &[edit::KeptTranslation]) -> Option<String> {
     let widest = kept.iter().max_by(|a, b| a.range.total_cmp(&b.range))?;
     let joints = counted(kept.len(), "joint");
     let name = bvh.joints[widest.joint].name();
-    let range = trimmed(widest.range, 3);
+    let range = trimmed(widest.range, decimals_to_show(widest.range));
     Some(format!(
         "{joints} kept position channels because they move, '{name}' by up to {range}"
     ))
@@ -114,9 +128,11 @@ fn unknown_joint(error: EditError, typed: &str, bvh: &Bvh) -> Failure {
 fn refused(error: EditError) -> Failure {
     let text = error.to_string();
     match error {
-        EditError::BadScale { .. } | EditError::IncompleteOrder | EditError::BadName { .. } => {
-            Failure::usage(text)
-        }
+        EditError::BadScale { .. }
+        | EditError::BadFrameTime { .. }
+        | EditError::IncompleteOrder
+        | EditError::BadName { .. }
+        | EditError::TooManyStars { .. } => Failure::usage(text),
         EditError::NoSuchJoint { .. } => {
             Failure::new(text).try_next("posekit info --tree lists the joints")
         }

@@ -7,8 +7,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
+use posekit::figure::UpAxis;
 use posekit::rotation::EulerOrder;
-use posekit_formats::bvh::edit::UpAxis;
 use posekit_formats::bvh::{Bvh, WriteOptions, write_to};
 
 use crate::args::Global;
@@ -19,6 +19,7 @@ use crate::failure::Failure;
 use crate::inputs::{self, Input, STDIN, Source};
 use crate::load;
 use crate::output::{Destination, Plan, write_whole};
+use crate::positions::PositionsArgs;
 use crate::program::ProgramArg;
 use crate::text::counted;
 use change::{Rename, Trim};
@@ -26,7 +27,7 @@ use change::{Rename, Trim};
 /// BVH files to BVH files: another frame rate, part of the frames, another unit, axis or rotation order
 ///
 /// What no option touches stays as it was, to the digit. The options are applied in this order:
-/// rename, reorder-like, trim, fps, scale, up, channels, order, for.
+/// positions, rename, reorder-like, frame-time, trim, fps, scale, up, channels, order, for.
 #[derive(Debug, Args)]
 #[command(
     after_help = EXAMPLES,
@@ -42,6 +43,11 @@ pub(crate) struct ConvertArgs {
     /// What is written, whatever the output is called [default: by its extension]
     #[arg(long, value_name = "FORMAT")]
     format: Option<Format>,
+    #[command(flatten)]
+    positions: PositionsArgs,
+    /// Seconds from a frame to the next: the same frames, played faster or slower
+    #[arg(long, value_name = "SECS")]
+    frame_time: Option<f64>,
     /// Frames a second; joints turn by slerp between old frames
     #[arg(long, value_name = "RATE")]
     fps: Option<f64>,
@@ -51,12 +57,12 @@ pub(crate) struct ConvertArgs {
     /// Multiply every length, as 0.01 for centimetres to metres
     #[arg(long, value_name = "FACTOR")]
     scale: Option<f64>,
-    /// The axis that shall point up
-    #[arg(long, value_name = "AXIS")]
-    up: Option<Up>,
-    /// The axis that points up now [default: seen from how the figure stands]
-    #[arg(long, value_name = "AXIS", requires = "up")]
-    from_up: Option<Up>,
+    /// The axis that shall point up: x, y, z, or -x, -y, -z
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
+    up: Option<UpAxis>,
+    /// The axis that points up now [default: the one along which the rest pose stands]
+    #[arg(long, value_name = "AXIS", requires = "up", allow_hyphen_values = true)]
+    from_up: Option<UpAxis>,
     /// Rotation order of every joint's channels, as ZXY
     #[arg(long, value_name = "ORDER")]
     order: Option<EulerOrder>,
@@ -66,7 +72,7 @@ pub(crate) struct ConvertArgs {
     /// What this program would refuse or read wrong is changed; see posekit check --for
     #[arg(long = "for", value_name = "PROGRAM")]
     program: Option<ProgramArg>,
-    /// Give joint A the name B; may be repeated
+    /// Give joint A the name B, or by pattern, as 'mixamorig:*=*'; may be repeated
     #[arg(long, value_name = "A=B")]
     rename: Vec<Rename>,
     /// Put the joints in the order of another file with the same joints
@@ -83,6 +89,9 @@ Examples:
   posekit convert walk.bvh zup.bvh --up z --order XYZ
   posekit convert walk.bvh page.bvh --for three
   posekit convert a.bvh b.bvh --rename Hips=pelvis --rename Spine=spine_01
+  posekit convert a.bvh b.bvh --rename 'mixamorig:*=*'  strips a prefix from every name
+  posekit convert slow.bvh right.bvh --frame-time 0.01
+  posekit convert a.bvh b.bvh --positions root=add      places that every program reads alike
   posekit convert push.bvh same.bvh --reorder-like walk.bvh";
 
 /// What can be written.
@@ -90,24 +99,6 @@ Examples:
 enum Format {
     /// Biovision hierarchy, .bvh
     Bvh,
-}
-
-/// An axis that may point up.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Up {
-    /// Y
-    Y,
-    /// Z
-    Z,
-}
-
-impl Up {
-    fn axis(self) -> UpAxis {
-        match self {
-            Self::Y => UpAxis::Y,
-            Self::Z => UpAxis::Z,
-        }
-    }
 }
 
 /// How many channels a joint has.

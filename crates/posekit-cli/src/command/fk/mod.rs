@@ -20,7 +20,7 @@ use crate::failure::Failure;
 use crate::inputs::{self, Input, Inputs};
 use crate::load;
 use crate::output::Plan;
-use crate::root_offset::RootOffset;
+use crate::positions::PositionsArgs;
 use crate::sample::Sample;
 use crate::select::{self, FrameSelection, PointArg};
 use crate::text::counted;
@@ -63,9 +63,8 @@ pub(crate) struct FkArgs {
     /// The rest pose, which the OFFSETs alone make, instead of the motion
     #[arg(long, conflicts_with = "frames")]
     rest: bool,
-    /// Whether a root's position channels replace its OFFSET or are added to it
-    #[arg(long, value_name = "HOW", default_value = "replace")]
-    root_offset: RootOffset,
+    #[command(flatten)]
+    positions: PositionsArgs,
     /// Also follow a point fixed to a joint, given in the joint's own space; may be repeated
     #[arg(long, value_name = "JOINT,X,Y,Z", allow_hyphen_values = true)]
     point: Vec<PointArg>,
@@ -213,7 +212,7 @@ fn select_from(
     let loaded = load::load(input, global)?;
     let warnings = loaded.repairs(input);
     let motion = loaded
-        .motion(args.root_offset.policy())
+        .motion(args.positions.policies())
         .map_err(|failure| failure.in_file(&name))?;
     // A long file's channel values would double the memory that forward kinematics takes.
     drop(loaded);

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 use posekit::ik::MovedJoint;
-use posekit::motion::{Motion, PositionPolicy};
+use posekit::motion::{Motion, PositionPolicies, PositionPolicy};
 use posekit::pose::LocalPose;
 use posekit::rotation::{Axis, angle_between};
 use posekit::skeleton::Skeleton;
@@ -34,18 +34,18 @@ pub(super) struct Figure {
     /// Its motion as it was.
     pub(super) motion: Motion,
     /// How position channels are read.
-    pub(super) policy: PositionPolicy,
+    pub(super) policies: PositionPolicies,
 }
 
 impl Figure {
     /// The figure of a file.
     pub(super) fn new(args: &IkArgs, loaded: Loaded) -> Result<Self, Failure> {
-        let policy = args.root_offset.policy();
+        let policies = args.positions.policies();
         let mut loaded = loaded;
         if args.rest {
-            put_at_rest(&mut loaded.bvh, policy, args.root.map(|root| root.0));
+            put_at_rest(&mut loaded.bvh, policies, args.root.map(|root| root.0));
         }
-        let motion = loaded.motion(policy)?;
+        let motion = loaded.motion(policies)?;
         if motion.frame_count() == 0 {
             return Err(Failure::new("has no frames").try_next("--rest works on its rest pose"));
         }
@@ -55,7 +55,7 @@ impl Figure {
             skeleton: Arc::clone(motion.skeleton()),
             bvh,
             motion,
-            policy,
+            policies,
         })
     }
 
@@ -82,8 +82,14 @@ impl Figure {
             let translation = was.translations[index].as_dvec3();
             let moved_by = translation.distance(joint.translation);
             if moved_by > SAME_SHARE * (1.0 + translation.length()) {
-                edit::set_translation(&mut self.bvh, index, frame, joint.translation, self.policy)
-                    .map_err(refused)?;
+                edit::set_translation(
+                    &mut self.bvh,
+                    index,
+                    frame,
+                    joint.translation,
+                    self.policies,
+                )
+                .map_err(refused)?;
             }
         }
         Ok(())
@@ -121,19 +127,20 @@ fn refused(error: EditError) -> Failure {
 }
 
 /// Makes the motion one frame of the rest pose, with the first root where it is wanted. An axis for which that
-/// root has no position channel keeps its place by its OFFSET.
-fn put_at_rest(bvh: &mut Bvh, policy: PositionPolicy, root: Option<DVec3>) {
+/// root has no position channel that counts keeps its place by its OFFSET.
+fn put_at_rest(bvh: &mut Bvh, policies: PositionPolicies, root: Option<DVec3>) {
     use posekit::motion::Channel;
     if let (Some(place), Some(first)) = (root, bvh.joints.first_mut()) {
         for (axis, at) in Axis::ALL.into_iter().zip(place.to_array()) {
-            if !first.channels.contains(&Channel::Position(axis)) {
+            let is_ignored = policies.root == PositionPolicy::Ignore;
+            if is_ignored || !first.channels.contains(&Channel::Position(axis)) {
                 first.offset[axis.index()] = at;
             }
         }
     }
     let mut values = Vec::new();
     for (index, joint) in bvh.joints.iter().enumerate() {
-        let is_added = policy == PositionPolicy::AddToRootOffset && joint.parent.is_none();
+        let is_added = policies.of_joint_below(joint.parent) == PositionPolicy::Add;
         let place = root.filter(|_| index == 0);
         values.extend(joint.channels.iter().map(|channel| match channel {
             Channel::Position(axis) => {

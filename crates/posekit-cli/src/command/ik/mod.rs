@@ -24,7 +24,7 @@ use crate::failure::Failure;
 use crate::inputs::{self, Input};
 use crate::load;
 use crate::output::{Destination, Plan, write_whole};
-use crate::root_offset::RootOffset;
+use crate::positions::PositionsArgs;
 use crate::select::{FrameSelection, PointArg};
 use crate::text::counted;
 use figure::Figure;
@@ -92,9 +92,8 @@ pub(crate) struct IkArgs {
     /// Start each frame from its own pose rather than from the correction of the frame before
     #[arg(long)]
     cold_start: bool,
-    /// Whether a root's position channels replace its OFFSET or are added to it
-    #[arg(long, value_name = "HOW", default_value = "replace")]
-    root_offset: RootOffset,
+    #[command(flatten)]
+    positions: PositionsArgs,
     /// Record every joint's update in every iteration here: .json or .csv
     #[arg(long, value_name = "FILE")]
     trace: Option<PathBuf>,

@@ -81,7 +81,7 @@ impl Place {
                         "'{file}' is not one file to follow"
                     )));
                 };
-                let motion = load::load(input, global)?.motion(figure.policy)?;
+                let motion = load::load(input, global)?.motion(figure.policies)?;
                 let joint =
                     find(motion.skeleton(), joint).map_err(|failure| failure.in_file(file))?;
                 if motion.frame_count() == 0 {

@@ -71,7 +71,7 @@ impl Task {
         let solver = args.solver.solver(skeleton)?;
         let mut setup = Setup::new(args.free_root);
         for goal in &goals {
-            setup.add(skeleton, goal, solver_name)?;
+            setup.add(figure, goal, solver_name)?;
             check_bent_joints(skeleton, goal, solver_name, &solver)?;
         }
         let mut problem = IkProblem::new(setup.base, setup.movable(), Vec::new(), setup.reach);
@@ -226,7 +226,8 @@ impl Setup {
         }
     }
 
-    fn add(&mut self, skeleton: &Skeleton, goal: &Goal, solver: SolverName) -> Result<(), Failure> {
+    fn add(&mut self, figure: &Figure, goal: &Goal, solver: SolverName) -> Result<(), Failure> {
+        let skeleton = &*figure.skeleton;
         let chain = chain(skeleton, goal, solver)?;
         let is_short = matches!(solver, SolverName::TwoBone | SolverName::Aim);
         let start = if is_short && goal.start.is_none() {
@@ -250,7 +251,12 @@ impl Setup {
         if let Movable::Joints(joints) = problem.movable {
             self.joints.extend(joints);
         }
-        self.reach = self.reach.max(f64::from(chain.rest_length(skeleton)));
+        // A tolerance is a share of this: where the OFFSETs are zero, the channels hold the bones.
+        let length = match chain.rest_length(skeleton) {
+            length if length > 0.0 => length,
+            _ => chain.length_in(&figure.motion.pose(0)),
+        };
+        self.reach = self.reach.max(f64::from(length));
         Ok(())
     }
 

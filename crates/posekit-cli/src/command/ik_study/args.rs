@@ -8,7 +8,7 @@ use clap::Args;
 use glam::DVec3;
 
 use super::method::Method;
-use crate::root_offset::RootOffset;
+use crate::positions::PositionsArgs;
 
 /// Compare solvers of inverse kinematics on a figure, and write a report about it
 ///
@@ -81,14 +81,8 @@ pub(crate) struct IkStudyArgs {
     /// Leave out all times, which differ from run to run
     #[arg(long)]
     pub(super) no_times: bool,
-    /// What a root's position channels do with its OFFSET
-    #[arg(
-        long,
-        value_name = "HOW",
-        default_value = "replace",
-        hide_possible_values = true
-    )]
-    pub(super) root_offset: RootOffset,
+    #[command(flatten)]
+    pub(super) positions: PositionsArgs,
 }
 
 const EXAMPLES: &str = "\

@@ -4,7 +4,6 @@ use posekit::skeleton::JointId;
 
 use super::experiment::Cell;
 use super::setup::Study;
-use crate::root_offset::RootOffset;
 
 /// The command of a run.
 pub(super) fn command(study: &Study, cell: Cell) -> String {
@@ -42,9 +41,7 @@ fn figure_words(study: &Study) -> Vec<String> {
         words.push("--root".to_owned());
         words.push(format!("{},{},{}", place.x, place.y, place.z));
     }
-    if study.root_offset == RootOffset::Add {
-        words.extend(["--root-offset", "add"].map(str::to_owned));
-    }
+    words.extend(study.positions.words());
     words
 }
 

@@ -20,7 +20,7 @@ use crate::args::Global;
 use crate::failure::Failure;
 use crate::inputs;
 use crate::load;
-use crate::root_offset::RootOffset;
+use crate::positions::PositionsArgs;
 use crate::select;
 
 /// The example of the course for which this command was made: its chain and its target.
@@ -42,8 +42,8 @@ pub(super) struct Study {
     pub(super) input: String,
     /// The input as it was given on the command line.
     pub(super) file: OsString,
-    /// What a root's position channels do with its OFFSET.
-    pub(super) root_offset: RootOffset,
+    /// What position channels do with OFFSETs.
+    pub(super) positions: PositionsArgs,
     /// The figure.
     pub(super) skeleton: Arc<Skeleton>,
     /// The pose in which every solver starts.
@@ -111,7 +111,7 @@ pub(super) fn study(args: &IkStudyArgs, global: &Global) -> Result<Study, Failur
         return Err(Failure::usage("a study is of one file"));
     };
     let motion = load::load(input, global)?
-        .motion(args.root_offset.policy())
+        .motion(args.positions.policies())
         .map_err(|failure| failure.in_file(&input.name()))?;
     let skeleton = Arc::clone(motion.skeleton());
     let root_place = root_place(args, &skeleton);
@@ -145,7 +145,7 @@ pub(super) fn study(args: &IkStudyArgs, global: &Global) -> Result<Study, Failur
     Ok(Study {
         input: input.relative.display().to_string(),
         file: args.file.clone(),
-        root_offset: args.root_offset,
+        positions: args.positions,
         skeleton,
         start,
         actor,

@@ -21,7 +21,7 @@ use crate::failure::Failure;
 use crate::inputs::{self, Input, Inputs};
 use crate::load;
 use crate::output::{Destination, Plan, write_whole};
-use crate::root_offset::RootOffset;
+use crate::positions::PositionsArgs;
 use crate::select::FrameSelection;
 use crate::text::counted;
 use compare::Comparison;
@@ -66,9 +66,8 @@ pub(crate) struct InbetweenArgs {
     /// Write the motion that the first method fills in
     #[arg(long, short, value_name = "OUT")]
     output: Option<OsString>,
-    /// Whether a root's position channels replace its OFFSET or are added to it
-    #[arg(long, value_name = "HOW", default_value = "replace")]
-    root_offset: RootOffset,
+    #[command(flatten)]
+    positions: PositionsArgs,
 }
 
 const EXAMPLES: &str = "\
@@ -109,7 +108,7 @@ pub(crate) fn run(args: &InbetweenArgs, global: &Global) -> Result<(), Failure> 
             .for_each(|repair| console::warning(repair));
     }
     let orders = loaded.bvh.rotation_orders();
-    let motion = loaded.motion(args.root_offset.policy()).map_err(in_file)?;
+    let motion = loaded.motion(args.positions.policies()).map_err(in_file)?;
     let plan = plan(args, &motion, global).map_err(in_file)?;
     let filled = |method: FillMethod| fill(&motion, &plan, |joint| method.of(joint, &orders));
     if let Some(output) = &args.output {

@@ -1,11 +1,10 @@
 //! The facts about a file, before anybody words them.
 
-use posekit::body::{Anatomy, NoAnatomy};
-use posekit::figure::{LengthUnit, RestPose, guess_unit};
-use posekit::motion::{Channel, Motion, PositionPolicy};
+use posekit::check::RelativePositions;
+use posekit::figure::{LengthUnit, RestPose, UpAxis, UpGuess, guess_unit, guess_up};
+use posekit::motion::{Channel, Motion, PositionPolicies};
 use posekit::skeleton::{JointId, Skeleton};
-use posekit_formats::bvh::Bvh;
-use posekit_formats::bvh::edit::{UpAxis, guess_up_axis};
+use posekit_formats::bvh::{Bvh, BvhJoint, EndName};
 
 use crate::failure::Failure;
 use crate::load::Loaded;
@@ -26,6 +25,8 @@ pub(super) struct Facts {
     pub(super) joint_count: usize,
     /// The End Sites among them.
     pub(super) end_site_count: usize,
+    /// The unique names of those that have one of their own in the file.
+    pub(super) end_site_names: Vec<String>,
     /// Levels of the hierarchy.
     pub(super) level_count: usize,
     /// Names of the roots.
@@ -40,6 +41,9 @@ pub(super) struct Facts {
     pub(super) channel_count: usize,
     /// The channel lists that occur, by their first joint.
     pub(super) channel_groups: Vec<ChannelGroup>,
+    /// What position channels mean where they are no places; the height in motion is of the figure that they
+    /// make then.
+    pub(super) relative_positions: Option<RelativePositions>,
     /// The rest pose's height; see [`Skeleton::height`].
     pub(super) rest_height: f64,
     /// The middle one of the vertical extents over the frames.
@@ -47,7 +51,7 @@ pub(super) struct Facts {
     /// The unit in which that height is a person's.
     pub(super) unit: Option<LengthUnit>,
     /// The axis along which the figure stands.
-    pub(super) up: Option<UpAxis>,
+    pub(super) up: Option<UpGuess>,
     /// What the rest pose looks like.
     pub(super) rest_pose: RestPose,
     /// Which joints are a person's landmarks, or why that is not known.
@@ -60,12 +64,16 @@ pub(super) struct Facts {
 
 impl Facts {
     /// Finds them.
-    pub(super) fn of(loaded: &Loaded) -> Result<Self, Failure> {
+    pub(super) fn of(loaded: &Loaded, policies: PositionPolicies) -> Result<Self, Failure> {
         let bvh = &loaded.bvh;
-        let motion = loaded.motion(PositionPolicy::Replace)?;
+        let mut motion = loaded.motion(policies)?;
+        let relative_positions = bvh.relative_positions(&motion, policies);
+        if let Some(relative) = &relative_positions {
+            motion = loaded.motion(relative.policies)?;
+        }
         let skeleton = Skeleton::clone(motion.skeleton());
-        let up = guess_up_axis(bvh);
-        let motion_height = middle_height(&motion, up.unwrap_or(UpAxis::Y));
+        let up = guess_up(&motion);
+        let motion_height = middle_height(&motion, up.map_or(UpAxis::Y, |guess| guess.up));
         let rest_height = f64::from(skeleton.height());
         let name = |joint: JointId| skeleton.unique_name(joint).to_owned();
         let pairs = skeleton.symmetric_pairs();
@@ -75,6 +83,11 @@ impl Facts {
                 .joints()
                 .filter(|&joint| skeleton.is_end_site(joint))
                 .count(),
+            end_site_names: skeleton
+                .joints()
+                .filter(|&joint| has_own_end_name(&bvh.joints[joint.index()]))
+                .map(name)
+                .collect(),
             level_count: level_count(&skeleton),
             roots: skeleton.roots().map(name).collect(),
             has_motion: bvh.motion.is_some(),
@@ -85,6 +98,7 @@ impl Facts {
                 .map_or(0.0, |motion| motion.frame_time_secs),
             channel_count: bvh.channel_count(),
             channel_groups: channel_groups(bvh),
+            relative_positions,
             rest_height,
             motion_height,
             unit: guess_unit(motion_height.unwrap_or(rest_height)),
@@ -109,6 +123,11 @@ impl Facts {
         let intervals = u32::try_from(self.frame_count.saturating_sub(1)).unwrap_or(u32::MAX);
         f64::from(intervals) * self.frame_time_secs.max(0.0)
     }
+}
+
+/// Whether a joint is an End Site with a name in the file.
+pub(super) fn has_own_end_name(joint: &BvhJoint) -> bool {
+    joint.is_end_site && joint.end_name != EndName::Implied
 }
 
 fn level_count(skeleton: &Skeleton) -> usize {
@@ -143,8 +162,5 @@ fn channel_groups(bvh: &Bvh) -> Vec<ChannelGroup> {
 
 fn middle_height(motion: &Motion, up: UpAxis) -> Option<f64> {
     let extent = posekit::figure::body_extent(motion)?;
-    Some(f64::from(match up {
-        UpAxis::Y => extent.y,
-        UpAxis::Z => extent.z,
-    }))
+    Some(f64::from(extent[up.axis().index()]))
 }

@@ -1,13 +1,12 @@
 //! The facts, for programs.
 
-use posekit::body::{Certainty, Limb};
-use posekit_formats::bvh::edit::UpAxis;
 use posekit_formats::report::{Severity, Warning};
 use serde_json::{Value, json};
 
 use super::facts::Facts;
 use super::readable;
 use crate::load::Loaded;
+use crate::up;
 
 /// One JSON object on one line.
 pub(super) fn object(name: &str, facts: &Facts, loaded: &Loaded) -> String {
@@ -42,14 +41,16 @@ pub(super) fn object(name: &str, facts: &Facts, loaded: &Loaded) -> String {
         "fps": facts.fps(),
         "duration": facts.duration_secs(),
         "channel_count": facts.channel_count,
+        "positions": facts.relative_positions.as_ref().map(|relative| json!({
+            "what": relative.what,
+            "option": relative.option,
+        })),
         "height_at_rest": facts.rest_height,
         "height_in_motion": facts.motion_height,
         "unit": facts.unit.map(|unit| unit.name()),
         "metres_per_unit": facts.unit.map(|unit| unit.metres()),
-        "up": facts.up.map(|up| match up {
-            UpAxis::Y => "y",
-            UpAxis::Z => "z",
-        }),
+        "up": facts.up.map(|guess| guess.up.name()),
+        "up_sureness": facts.up.map(up::sureness),
         "rest_pose": readable::rest_pose(&facts.rest_pose),
         "landmarks": landmarks(facts),
         "pairs": pairs,

@@ -17,6 +17,7 @@ use crate::console;
 use crate::failure::Failure;
 use crate::inputs;
 use crate::load::{self, Loaded, Subject};
+use crate::positions::PositionsArgs;
 use facts::Facts;
 
 /// What is in a file: joints, frames, channels, height and unit, rest pose, what the reader noticed
@@ -32,6 +33,8 @@ pub(crate) struct InfoArgs {
     /// Files, folders, patterns, '-' or sample:NAME
     #[arg(value_name = "FILE", required = true)]
     files: Vec<OsString>,
+    #[command(flatten)]
+    positions: PositionsArgs,
     /// Draw the hierarchy too
     #[arg(long)]
     tree: bool,
@@ -74,7 +77,8 @@ pub(crate) fn run(args: &InfoArgs, global: &Global) -> Result<(), Failure> {
                     });
                 }
             };
-            let facts = Facts::of(&loaded).map_err(|failure| failure.in_file(&input.name()))?;
+            let facts = Facts::of(&loaded, args.positions.policies())
+                .map_err(|failure| failure.in_file(&input.name()))?;
             // The reader's remarks are part of the answer here, not warnings beside it.
             let text = if args.json {
                 json::object(&input.name(), &facts, &loaded)

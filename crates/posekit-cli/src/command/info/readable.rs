@@ -4,7 +4,6 @@ use posekit::body::{Certainty, Limb};
 use posekit::figure::{ArmPosture, RestPose, RestPoseKind, STATURE_RANGE_METRES};
 use posekit::motion::Channel;
 use posekit::rotation::Axis;
-use posekit_formats::bvh::edit::UpAxis;
 use posekit_formats::report::Warning;
 
 use super::facts::Facts;
@@ -13,6 +12,7 @@ use crate::console::{DIM, HEADING, styled};
 use crate::failure::one_line;
 use crate::load::{Loaded, is_repair};
 use crate::text::{counted, decimals_for, duration, fixed, trimmed};
+use crate::up;
 
 /// How many pairs are named before the rest are counted.
 const PAIRS_NAMED: usize = 4;
@@ -27,9 +27,12 @@ pub(super) fn block(name: &str, facts: &Facts, loaded: &Loaded, with_tree: bool)
     for (index, group) in channels(facts, loaded).into_iter().enumerate() {
         line(&mut text, if index == 0 { "channels" } else { "" }, &group);
     }
+    if let Some(relative) = &facts.relative_positions {
+        line(&mut text, "positions", &one_line(&relative.advice()));
+    }
     line(&mut text, "height", &height(facts));
     line(&mut text, "unit", &unit(facts));
-    line(&mut text, "up", up(facts));
+    line(&mut text, "up", &up::in_words(facts.up));
     line(&mut text, "rest pose", &rest_pose(&facts.rest_pose));
     line(&mut text, "left/right", &pairs(facts));
     for (index, value) in landmarks(facts).into_iter().enumerate() {
@@ -57,7 +60,19 @@ pub(super) fn line(text: &mut String, label: &str, value: &str) {
 }
 
 fn joints(facts: &Facts) -> String {
-    let ends = counted(facts.end_site_count, "end site");
+    let mut ends = counted(facts.end_site_count, "end site");
+    if !facts.end_site_names.is_empty() {
+        let mut names: Vec<String> = facts
+            .end_site_names
+            .iter()
+            .take(JOINTS_NAMED)
+            .map(|name| one_line(name))
+            .collect();
+        if facts.end_site_names.len() > JOINTS_NAMED {
+            names.push("...".to_owned());
+        }
+        ends = format!("{ends} (named {})", names.join(", "));
+    }
     let levels = counted(facts.level_count, "level");
     let roots: Vec<String> = facts
         .roots
@@ -165,14 +180,6 @@ fn unit(facts: &Facts) -> String {
             "unknown: in no common unit is {} a person's {low} m to {high} m",
             trimmed(height, decimals_for(height))
         ),
-    }
-}
-
-fn up(facts: &Facts) -> &'static str {
-    match facts.up {
-        Some(UpAxis::Y) => "Y",
-        Some(UpAxis::Z) => "Z: posekit convert --up y turns it",
-        None => "unknown: the figure is not clearly taller than wide",
     }
 }
 

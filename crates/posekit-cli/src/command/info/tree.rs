@@ -2,6 +2,7 @@
 
 use posekit::skeleton::{JointId, Skeleton};
 
+use super::facts::has_own_end_name;
 use crate::console::{DIM, styled};
 use crate::failure::one_line;
 use crate::load::Loaded;
@@ -14,7 +15,14 @@ pub(super) fn draw(skeleton: &Skeleton, loaded: &Loaded) -> String {
     let rows: Vec<(String, String, JointId)> = skeleton
         .roots()
         .flat_map(|root| skeleton.subtree(root))
-        .map(|joint| (branches(skeleton, joint), label(skeleton, joint), joint))
+        .map(|joint| {
+            let own_name = has_own_end_name(&loaded.bvh.joints[joint.index()]);
+            let label = match skeleton.is_end_site(joint) && !own_name {
+                true => "(end)".to_owned(),
+                false => label(skeleton, joint),
+            };
+            (branches(skeleton, joint), label, joint)
+        })
         .collect();
     let widest = rows
         .iter()
@@ -41,10 +49,11 @@ pub(super) fn draw(skeleton: &Skeleton, loaded: &Loaded) -> String {
 }
 
 fn label(skeleton: &Skeleton, joint: JointId) -> String {
+    let name = one_line(skeleton.unique_name(joint));
     if skeleton.is_end_site(joint) {
-        "(end)".to_owned()
+        format!("{name} (end)")
     } else {
-        one_line(skeleton.unique_name(joint))
+        name
     }
 }
 

@@ -5,7 +5,7 @@ use std::io::Write;
 
 use clap::Args;
 use posekit::keyframe::{Interpolation, ReduceConfig, reduce};
-use posekit::motion::{Motion, PositionPolicy};
+use posekit::motion::Motion;
 use posekit::rotation::EulerOrder;
 use posekit_formats::scene::{self, EXTENSION, Scene, SkeletonSource};
 
@@ -16,6 +16,7 @@ use crate::failure::Failure;
 use crate::inputs;
 use crate::load;
 use crate::output::{Destination, Plan, write_whole};
+use crate::positions::PositionsArgs;
 use crate::text::{counted, grouped, trimmed};
 
 /// Find few keys that stand for a motion within a stated error
@@ -44,6 +45,8 @@ pub(super) struct ReduceArgs {
     /// Write the quaternions as Euler angles in degrees in this order; they stay quaternions between keys
     #[arg(long, value_name = "ORDER")]
     euler: Option<EulerOrder>,
+    #[command(flatten)]
+    positions: PositionsArgs,
 }
 
 const EXAMPLES: &str = "\
@@ -66,8 +69,7 @@ pub(super) fn run(args: &ReduceArgs, global: &Global) -> Result<(), Failure> {
     let name = input.name();
     let loaded = load::load(input, global)?;
     let in_file = |failure: Failure| failure.in_file(&name);
-    let motion = loaded.motion(PositionPolicy::Replace).map_err(in_file)?;
-    drop(loaded);
+    let motion = loaded.motion(args.positions.policies()).map_err(in_file)?;
     let config = ReduceConfig {
         angle_deg: args.angle,
         distance_heights: args.distance,

@@ -9,7 +9,9 @@ use posekit_render::stage::{AxesShown, Follow, SkeletonStyle};
 use posekit_render::theme::Theme;
 
 use crate::args::RendererArg;
+use crate::positions::PositionsArgs;
 use crate::select::FrameSelection;
+use crate::up::UpArgs;
 
 use super::format::Format;
 
@@ -52,6 +54,10 @@ pub(crate) struct RenderArgs {
     /// The rest pose, which the OFFSETs alone make, instead of the motion
     #[arg(long, conflicts_with_all = ["frames", "contact_sheet"])]
     pub(super) rest: bool,
+    #[command(flatten)]
+    pub(super) up: UpArgs,
+    #[command(flatten)]
+    pub(super) positions: PositionsArgs,
     /// Where from: a scene's camera by its name, or front, back, left, right, side, top, three-quarter,
     /// or YAW,PITCH in degrees (0,0 is the front, 90,0 the figure's left) [default: a scene's first
     /// camera, else three-quarter]

@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::sync::Arc;
 
 use posekit::keyframe::KeyedCamera;
-use posekit::motion::{Motion, PositionPolicy};
+use posekit::motion::Motion;
 use posekit::skeleton::{JointId, Skeleton};
 use posekit_formats::scene;
 use posekit_render::output::{even_size, spread_times};
@@ -77,29 +77,43 @@ impl Shot {
 pub(super) fn companions(args: &RenderArgs, global: &Global) -> Result<Vec<Arc<Motion>>, Failure> {
     let mut motions = Vec::new();
     for name in args.overlay.iter().chain(&args.beside) {
-        motions.extend(named_motions(name, global)?);
+        motions.extend(named_motions(args, name, global)?);
     }
     Ok(motions)
 }
 
-fn named_motions(name: &OsString, global: &Global) -> Result<Vec<Arc<Motion>>, Failure> {
+fn named_motions(
+    args: &RenderArgs,
+    name: &OsString,
+    global: &Global,
+) -> Result<Vec<Arc<Motion>>, Failure> {
     let inputs = inputs::expand(std::slice::from_ref(name));
     if let Some((_, failure)) = inputs.failures.into_iter().next() {
         return Err(failure);
     }
     let motions = inputs.list.iter().map(|input| {
-        let (motion, _) = motion_of(input, global)?;
+        let (motion, _) = motion_of(args, input, global)?;
         Ok(Arc::new(motion))
     });
     motions.collect()
 }
 
-fn motion_of(input: &Input, global: &Global) -> Result<(Motion, Vec<String>), Failure> {
+fn motion_of(
+    args: &RenderArgs,
+    input: &Input,
+    global: &Global,
+) -> Result<(Motion, Vec<String>), Failure> {
     let loaded = load::load(input, global)?;
-    let warnings = loaded.repairs(input);
+    let mut warnings = loaded.repairs(input);
+    let policies = args.positions.policies();
     let motion = loaded
-        .motion(PositionPolicy::Replace)
+        .motion(policies)
         .map_err(|failure| failure.in_file(&input.name()))?;
+    if !args.positions.is_given() {
+        warnings.extend(loaded.relative_positions(input, &motion, policies));
+    }
+    let (motion, remark) = args.up.stand(&input.name(), motion);
+    warnings.extend(remark);
     Ok((motion, warnings))
 }
 
@@ -117,13 +131,8 @@ pub(super) fn prepare(
         _ => None,
     };
     let (mut motion, mut warnings) = match &scene {
-        Some((path, scene)) => {
-            let import = scene_file::shot(path, scene)?;
-            load::refuse_repairs(&name, &import.report, global)?;
-            let warnings = load::repair_lines(&name, &import.report.warnings);
-            (import.document.bake(None), warnings)
-        }
-        None => motion_of(input, global)?,
+        Some((path, scene)) => (scene_file::shot(path, scene)?.bake(None), Vec::new()),
+        None => motion_of(args, input, global)?,
     };
     let scene = scene.map(|(_, scene)| scene);
     let in_file = |failure: Failure| failure.in_file(&name);

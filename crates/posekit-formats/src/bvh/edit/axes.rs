@@ -1,58 +1,37 @@
 //! Which axis points up.
 
-use posekit::motion::{Channel, PositionPolicy};
-use posekit::pose::GlobalPose;
+use posekit::figure::{UpAxis, UpGuess};
+use posekit::motion::{Channel, PositionPolicies};
 use posekit::rotation::Axis;
 
 use super::columns::{lay_out, starts};
 use crate::bvh::Bvh;
 
-/// The axis that points up.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum UpAxis {
-    /// Y, as in Maya, MotionBuilder and most BVH files.
-    Y,
-    /// Z, as in Blender, 3ds Max and robotics.
-    Z,
+/// The axis along which the figure stands, and what says so: see [`posekit::figure::guess_up`]. `None`
+/// where nothing tells, as for a figure that lies down or an arm of a robot.
+pub fn guess_up_axis(bvh: &Bvh) -> Option<UpGuess> {
+    let motion = bvh.to_motion(PositionPolicies::default()).ok()?;
+    posekit::figure::guess_up(&motion)
 }
 
-/// How much taller than wide a figure must be for its up axis to be clear.
-const CLEARLY_TALLER: f32 = 1.15;
-
-/// The axis along which the figure stands: of Y and Z the one with the clearly larger
-/// [extent](posekit::figure::body_extent) (at rest, where there are no frames). `None` when neither
-/// is, as for a figure that lies down or an arm of a robot.
-pub fn guess_up_axis(bvh: &Bvh) -> Option<UpAxis> {
-    let motion = bvh.to_motion(PositionPolicy::Replace).ok()?;
-    let extent = posekit::figure::body_extent(&motion).unwrap_or_else(|| {
-        let (low, high) = GlobalPose::rest(motion.skeleton()).bounds();
-        high - low
-    });
-    if extent.y > CLEARLY_TALLER * extent.z {
-        Some(UpAxis::Y)
-    } else if extent.z > CLEARLY_TALLER * extent.y {
-        Some(UpAxis::Z)
-    } else {
-        None
-    }
-}
-
-/// Turns the world a quarter about X so that the axis `from` becomes the axis `to`: the rest pose and
-/// the motion stand along the new axis.
+/// Turns the world so that the axis `from` becomes the axis `to`: the rest pose and the motion stand along
+/// the new axis. It is a quarter turn about the axis that is neither, or a half turn where the two are ends
+/// of one axis.
 ///
 /// Nothing is computed. The turn maps axes to axes, so OFFSETs swap coordinates, channels change
 /// their axis, and some change their sign; every number keeps its digits. Position channels stay in
 /// the order of axes in which the file lists them. The rotation order changes with the axes (ZXY
 /// becomes YXZ); [`set_rotation_order`](super::set_rotation_order) brings another one.
 pub fn turn_up(bvh: &mut Bvh, from: UpAxis, to: UpAxis) {
-    let turn = match (from, to) {
-        (UpAxis::Y, UpAxis::Z) => QuarterTurn { negated: Axis::Z },
-        (UpAxis::Z, UpAxis::Y) => QuarterTurn { negated: Axis::Y },
-        _ => return,
-    };
+    if from == to {
+        return;
+    }
+    let turn = AxisTurn::new(from, to);
     for joint in &mut bvh.joints {
-        let [x, y, z] = joint.offset;
-        joint.offset = [x, turn.signed(Axis::Z, z), turn.signed(Axis::Y, y)];
+        let old = joint.offset;
+        for axis in Axis::ALL {
+            joint.offset[turn.axis(axis).index()] = turn.signed(axis, old[axis.index()]);
+        }
     }
     let old_starts = bvh.column_starts();
     let channels: Vec<Vec<Channel>> = bvh
@@ -96,23 +75,37 @@ pub fn turn_up(bvh: &mut Bvh, from: UpAxis, to: UpAxis) {
     });
 }
 
-/// A quarter turn about X, which swaps Y and Z and negates one of them on the way.
+/// A turn that maps axes to axes.
 #[derive(Clone, Copy)]
-struct QuarterTurn {
-    negated: Axis,
+struct AxisTurn {
+    /// What becomes of each axis, and whether its coordinate changes its sign.
+    images: [(Axis, bool); 3],
 }
 
-impl QuarterTurn {
-    fn axis(self, axis: Axis) -> Axis {
-        match axis {
-            Axis::X => Axis::X,
-            Axis::Y => Axis::Z,
-            Axis::Z => Axis::Y,
+impl AxisTurn {
+    fn new(from: UpAxis, to: UpAxis) -> Self {
+        let mut images = Axis::ALL.map(|axis| (axis, false));
+        let (old, new) = (from.axis(), to.axis());
+        let flips = from.is_positive() != to.is_positive();
+        if old == new {
+            // A half turn negates another axis too.
+            let other = if old == Axis::Y { Axis::Z } else { Axis::Y };
+            images[old.index()].1 = true;
+            images[other.index()].1 = true;
+        } else {
+            images[old.index()] = (new, flips);
+            images[new.index()] = (old, !flips);
         }
+        Self { images }
     }
 
+    fn axis(self, axis: Axis) -> Axis {
+        self.images[axis.index()].0
+    }
+
+    /// A coordinate along an axis, as it is along the axis that it becomes.
     fn signed(self, axis: Axis, value: f64) -> f64 {
-        if axis == self.negated {
+        if self.images[axis.index()].1 {
             0.0 - value
         } else {
             value
@@ -128,7 +121,7 @@ impl QuarterTurn {
 
     fn negates(self, channel: Channel) -> bool {
         let (Channel::Position(axis) | Channel::Rotation(axis)) = channel;
-        axis == self.negated
+        self.images[axis.index()].1
     }
 
     /// The new channels: rotations in place, positions in the order of axes that the file had.

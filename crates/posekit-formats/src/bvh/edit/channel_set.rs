@@ -25,14 +25,14 @@ pub struct KeptTranslation {
     pub range: f64,
 }
 
-/// Up to this share of the skeleton's size a translation that changes counts as constant: the
+/// Up to this share of the figure's size a translation that changes counts as constant: the
 /// rounding of files with five or six digits, not a motion.
 const CONSTANT_SHARE: f64 = 1e-4;
 
 /// Gives every joint these channels and leaves the motion as it is.
 ///
 /// Where position channels go, the OFFSET takes the translation that they held. A joint whose
-/// translation changes by more than a ten-thousandth of the skeleton's size cannot do without them:
+/// translation changes by more than a ten-thousandth of the figure's size cannot do without them:
 /// it keeps them and is in the result. Channels that come hold the OFFSET, or a rotation of zero
 /// after the others.
 pub fn set_channels(bvh: &mut Bvh, set: ChannelSet) -> Vec<KeptTranslation> {
@@ -50,8 +50,8 @@ fn is_position(channel: Channel) -> bool {
 }
 
 fn drop_positions(bvh: &mut Bvh) -> Vec<KeptTranslation> {
-    let tolerance = CONSTANT_SHARE * size(bvh);
     let old_starts = bvh.column_starts();
+    let tolerance = CONSTANT_SHARE * size(bvh, &old_starts);
     let mut kept = Vec::new();
     let mut channels: Vec<Vec<Channel>> = Vec::with_capacity(bvh.joints.len());
     let mut offsets = Vec::new();
@@ -100,13 +100,26 @@ fn drop_positions(bvh: &mut Bvh) -> Vec<KeptTranslation> {
     kept
 }
 
-/// The largest extent of the rest pose, or of the first frame's translations where that is larger.
-fn size(bvh: &Bvh) -> f64 {
+/// The largest extent of the figure with all rotations zero: of its OFFSETs, or of the places that the first
+/// frame gives the joints below the roots where that is larger. OFFSETs may all be zero while the
+/// channels hold the figure.
+fn size(bvh: &Bvh, starts: &[usize]) -> f64 {
+    let at_rest = extent(bvh, |joint| bvh.joints[joint].offset);
+    let in_frame = extent(bvh, |joint| match bvh.joints[joint].parent {
+        Some(_) => first_translation(bvh, joint, starts[joint]),
+        None => [0.0; 3],
+    });
+    at_rest.max(in_frame)
+}
+
+/// The longest side of the box around all joints whose translations these are.
+fn extent(bvh: &Bvh, translation: impl Fn(usize) -> [f64; 3]) -> f64 {
     let mut places: Vec<[f64; 3]> = Vec::with_capacity(bvh.joints.len());
-    let (mut low, mut high) = ([0.0f64; 3], [0.0f64; 3]);
-    for joint in &bvh.joints {
+    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    for (index, joint) in bvh.joints.iter().enumerate() {
         let base = joint.parent.map_or([0.0; 3], |parent| places[parent]);
-        let place = [0, 1, 2].map(|axis| base[axis] + joint.offset[axis]);
+        let own = translation(index);
+        let place = [0, 1, 2].map(|axis| base[axis] + own[axis]);
         for axis in 0..3 {
             low[axis] = low[axis].min(place[axis]);
             high[axis] = high[axis].max(place[axis]);

@@ -6,7 +6,10 @@ use posekit::rotation::{Axis, compose_elementary};
 use crate::bvh::Bvh;
 
 /// The columns of a joint's rotation channels, in order.
-pub(super) fn rotation_columns(channels: &[Channel], first_column: usize) -> Vec<(usize, Axis)> {
+pub(in crate::bvh) fn rotation_columns(
+    channels: &[Channel],
+    first_column: usize,
+) -> Vec<(usize, Axis)> {
     let columns = channels
         .iter()
         .enumerate()
@@ -18,7 +21,7 @@ pub(super) fn rotation_columns(channels: &[Channel], first_column: usize) -> Vec
 }
 
 /// The rotation that a row's columns make.
-pub(super) fn rotation_of(row: &[f64], columns: &[(usize, Axis)]) -> glam::DQuat {
+pub(in crate::bvh) fn rotation_of(row: &[f64], columns: &[(usize, Axis)]) -> glam::DQuat {
     compose_elementary(
         columns
             .iter()

@@ -1,4 +1,4 @@
-//! Some of the frames.
+//! Some of the frames, and how fast they follow each other.
 
 use std::ops::Range;
 
@@ -24,5 +24,22 @@ pub fn trim(bvh: &mut Bvh, range: Range<usize>) -> Result<(), EditError> {
     motion.values.truncate(end * width);
     motion.values.drain(..start * width);
     motion.frame_count = end - start;
+    Ok(())
+}
+
+/// Plays the same frames at another speed: only the frame time changes, and no value.
+///
+/// # Errors
+/// When there is no motion, or the time is not above zero, or is so long or short that it or the
+/// frames a second that it makes are not finite.
+pub fn set_frame_time(bvh: &mut Bvh, frame_time_secs: f64) -> Result<(), EditError> {
+    let motion = bvh.motion.as_mut().ok_or(EditError::NoMotion)?;
+    let is_time = frame_time_secs > 0.0 && frame_time_secs.is_finite();
+    if !is_time || !frame_time_secs.recip().is_finite() {
+        return Err(EditError::BadFrameTime {
+            secs: frame_time_secs,
+        });
+    }
+    motion.frame_time_secs = frame_time_secs;
     Ok(())
 }

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 use posekit::ik::{Interval, JointLimit};
-use posekit::motion::{Channel, PositionPolicy};
+use posekit::motion::{Channel, PositionPolicies, PositionPolicy};
 use posekit::rotation::{Axis, EulerOrder};
 
 use super::EditError;
@@ -48,7 +48,7 @@ pub fn set_rotation(
 }
 
 /// Moves a joint in one frame: its position channels take the translation in its parent's space, as
-/// `policy` reads them.
+/// `policies` read them.
 ///
 /// # Errors
 /// When there is no such joint or frame, or the joint lacks a position channel for a coordinate that
@@ -58,7 +58,7 @@ pub fn set_translation(
     joint: usize,
     frame: usize,
     translation: DVec3,
-    policy: PositionPolicy,
+    policies: impl Into<PositionPolicies>,
 ) -> Result<(), EditError> {
     check_place(bvh, joint, frame)?;
     let BvhJoint {
@@ -67,23 +67,29 @@ pub fn set_translation(
         parent,
         ..
     } = &bvh.joints[joint];
-    let is_added = policy == PositionPolicy::AddToRootOffset && parent.is_none();
+    let policy = policies.into().of_joint_below(*parent);
     let wanted = translation.to_array();
     let mut values = Vec::new();
     for axis in Axis::ALL {
         let place = channels
             .iter()
-            .position(|&channel| channel == Channel::Position(axis));
+            .position(|&channel| channel == Channel::Position(axis))
+            .filter(|_| policy != PositionPolicy::Ignore);
         let i = axis.index();
         match place {
-            Some(place) if is_added => values.push((place, wanted[i] - offset[i])),
+            Some(place) if policy == PositionPolicy::Add => {
+                values.push((place, wanted[i] - offset[i]));
+            }
             Some(place) => values.push((place, wanted[i])),
             // Single precision is what poses have.
             None if (wanted[i] - offset[i]).abs() <= 1e-6 * (1.0 + wanted[i].abs()) => {}
             None => {
                 return Err(EditError::CannotMove {
                     name: bvh.joints[joint].name().into_owned(),
-                    what: "no position channels for all axes",
+                    what: match policy {
+                        PositionPolicy::Ignore => "its position channels ignored",
+                        _ => "no position channels for all axes",
+                    },
                 });
             }
         }
@@ -195,7 +201,9 @@ mod tests {
         assert_eq!(joint_limit(&bvh.joints[3]), JointLimit::Fixed);
         let moved = set_translation(&mut bvh, 1, 0, DVec3::ONE, PositionPolicy::Replace);
         assert!(matches!(moved, Err(EditError::CannotMove { .. })));
-        set_translation(&mut bvh, 0, 0, DVec3::ONE, PositionPolicy::AddToRootOffset).unwrap();
+        set_translation(&mut bvh, 0, 0, DVec3::ONE, PositionPolicy::Add).unwrap();
         assert_eq!(bvh.row(0)[..3], [0.0, -1.0, -2.0]);
+        let held = set_translation(&mut bvh, 0, 0, DVec3::ONE, PositionPolicy::Ignore);
+        assert!(matches!(held, Err(EditError::CannotMove { .. })));
     }
 }

@@ -14,17 +14,19 @@ pub(super) mod columns;
 mod frames;
 mod joint_order;
 mod joint_transform;
-mod resample;
+mod positions;
+pub(super) mod resample;
 pub(super) mod rotation_order;
 mod scale;
 #[cfg(test)]
 mod tests;
 
-pub use axes::{UpAxis, guess_up_axis, turn_up};
+pub use axes::{guess_up_axis, turn_up};
 pub use channel_set::{ChannelSet, KeptTranslation, set_channels};
-pub use frames::trim;
+pub use frames::{set_frame_time, trim};
 pub use joint_order::{rename, reorder_like};
 pub use joint_transform::{joint_limit, set_rotation, set_translation};
+pub use positions::settle_positions;
 pub use resample::resample;
 pub use rotation_order::set_rotation_order;
 pub use scale::scale;
@@ -44,6 +46,12 @@ pub enum EditError {
     BadRate {
         /// The rate that was asked for.
         fps: f64,
+    },
+    /// A frame time is zero, negative or not finite, or its rate is.
+    #[error("a frame time must be a number of seconds above zero, and this is {secs}")]
+    BadFrameTime {
+        /// The frame time.
+        secs: f64,
     },
     /// The motion has no frame time to tell its rate from.
     #[error("the file's frame time is not above zero, so its frame rate is unknown")]
@@ -74,6 +82,14 @@ pub enum EditError {
     BadName {
         /// The name.
         name: String,
+    },
+    /// A new name has more stars than the pattern of the old one.
+    #[error("'{to}' has more stars than '{from}', so some stand for nothing")]
+    TooManyStars {
+        /// The pattern of the old name.
+        from: String,
+        /// The new name.
+        to: String,
     },
     /// Two documents that should have the same joints do not.
     #[error("joint '{name}' is not under the same parent in both files")]

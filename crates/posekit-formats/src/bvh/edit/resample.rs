@@ -219,7 +219,7 @@ impl Sampler {
 }
 
 /// The order of rotation columns that name each axis once.
-fn whole_order(columns: &[(usize, Axis)]) -> Option<EulerOrder> {
+pub(in crate::bvh) fn whole_order(columns: &[(usize, Axis)]) -> Option<EulerOrder> {
     let axes: Vec<Axis> = columns.iter().map(|&(_, axis)| axis).collect();
     let all = Axis::ALL.iter().all(|axis| axes.contains(axis));
     if axes.len() == 3 && all {
@@ -229,18 +229,18 @@ fn whole_order(columns: &[(usize, Axis)]) -> Option<EulerOrder> {
     }
 }
 
-fn angles_at(row: &[f64], columns: &[(usize, Axis)]) -> [f64; 3] {
+pub(in crate::bvh) fn angles_at(row: &[f64], columns: &[(usize, Axis)]) -> [f64; 3] {
     [0, 1, 2].map(|place| row[columns[place].0])
 }
 
-fn set_angles(row: &mut [f64], columns: &[(usize, Axis)], angles: [f64; 3]) {
+pub(in crate::bvh) fn set_angles(row: &mut [f64], columns: &[(usize, Axis)], angles: [f64; 3]) {
     for (&(column, _), angle) in columns.iter().zip(angles) {
         row[column] = angle;
     }
 }
 
 /// `angle` moved by full turns to the one nearest to `other`, in degrees.
-fn near_angle(angle: f64, other: f64) -> f64 {
+pub(in crate::bvh) fn near_angle(angle: f64, other: f64) -> f64 {
     let turns = ((other - angle) / 360.0).round();
     if turns == 0.0 {
         angle
@@ -249,7 +249,7 @@ fn near_angle(angle: f64, other: f64) -> f64 {
     }
 }
 
-fn mix(from: f64, to: f64, t: f64) -> f64 {
+pub(in crate::bvh) fn mix(from: f64, to: f64, t: f64) -> f64 {
     if from == to {
         from
     } else {

@@ -5,10 +5,11 @@ use posekit::rotation::{Axis, EulerOrder};
 
 use super::peculiarity::{self, ChannelCount};
 use super::{Program, names};
+use crate::bvh::document::implied_end_name;
 use crate::bvh::edit::columns::lay_out;
 use crate::bvh::edit::rotation_order::set_rotation_order_of;
 use crate::bvh::edit::{ChannelSet, set_channels};
-use crate::bvh::{Bvh, BvhJoint, BvhMotion};
+use crate::bvh::{Bvh, BvhJoint, BvhMotion, EndName};
 
 /// How many names a sentence about changes lists.
 const NAMES_LISTED: usize = 4;
@@ -73,8 +74,26 @@ pub fn adapt(bvh: &mut Bvh, program: Program) -> Result<Vec<String>, Obstacle> {
     if program == Program::Three {
         changes.extend(clear_offsets(&mut adapted));
     }
+    if program == Program::Assimp {
+        changes.extend(drop_end_names(&mut adapted));
+    }
     *bvh = adapted;
     Ok(changes)
+}
+
+/// Leaves out the names of End Sites, which are written again otherwise.
+fn drop_end_names(bvh: &mut Bvh) -> Option<String> {
+    let mut count = 0;
+    for index in 0..bvh.joints.len() {
+        let joint = &bvh.joints[index];
+        if let Some(parent) = joint.parent.filter(|_| joint.end_name != EndName::Implied) {
+            bvh.joints[index].name = implied_end_name(&bvh.joints[parent].name);
+            bvh.joints[index].end_name = EndName::Implied;
+            count += 1;
+        }
+    }
+    let sites = if count == 1 { "End Site" } else { "End Sites" };
+    (count > 0).then(|| format!("leaves out the names of {count} {sites}"))
 }
 
 fn check_frame_time(bvh: &Bvh, program: Program) -> Result<(), Obstacle> {
@@ -117,6 +136,7 @@ fn join_roots(bvh: &mut Bvh, program: Program) -> Result<Option<String>, Obstacl
         offset: [0.0; 3],
         channels: six_channels(),
         is_end_site: false,
+        end_name: EndName::Implied,
     };
     let still = root.channels.len();
     let rows: Vec<f64> = bvh

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use crate::bvh::{Bvh, MAX_NAME_BYTES};
+use crate::bvh::document::implied_end_name;
+use crate::bvh::{Bvh, EndName, MAX_NAME_BYTES};
 
 /// Blender's bones hold 63 bytes of a name.
 pub(super) const LONGEST_IN_BLENDER: usize = 63;
@@ -54,8 +55,9 @@ pub(super) fn make_plain(bvh: &mut Bvh, is_for_three: bool) -> Vec<(String, Stri
         let parent = bvh.joints[index].parent;
         if let Some(parent) = parent.filter(|&parent| is_renamed[parent])
             && bvh.joints[index].is_end_site
+            && bvh.joints[index].end_name == EndName::Implied
         {
-            bvh.joints[index].name = format!("{}_end", bvh.joints[parent].name()).into_bytes();
+            bvh.joints[index].name = implied_end_name(&bvh.joints[parent].name);
         }
     }
     renamed

@@ -2,7 +2,8 @@
 
 use super::scan::Scanner;
 use super::{MAX_DEPTH, MAX_JOINTS, MAX_NAME_BYTES, number};
-use crate::bvh::BvhJoint;
+use crate::bvh::document::implied_end_name;
+use crate::bvh::{BvhJoint, EndName};
 use crate::report::{ReadError, ReadErrorKind, WarningCode, quote};
 use posekit::motion::Channel;
 use posekit::rotation::Axis;
@@ -136,7 +137,6 @@ impl Builder {
         at: usize,
         keyword: Keyword,
     ) -> Result<(), ReadError> {
-        let name_at = scanner.pos;
         let name = scanner.take_name();
         self.note_place(scanner, at, keyword);
         if name.is_empty() {
@@ -144,6 +144,18 @@ impl Builder {
                 "a joint without a name, kept so".into()
             });
         }
+        self.note_name(scanner, at, name)?;
+        self.push(scanner, at, name.to_vec(), None)
+    }
+
+    /// Notes what is odd about the name of the joint whose keyword is at `at`, and keeps it in mind;
+    /// refuses one that is too long.
+    fn note_name(
+        &mut self,
+        scanner: &mut Scanner<'_>,
+        at: usize,
+        name: &[u8],
+    ) -> Result<(), ReadError> {
         if std::str::from_utf8(name).is_err() {
             scanner.warn(WarningCode::NonUtf8Name, at, || {
                 format!("the name {} is not UTF-8, its bytes are kept", quote(name))
@@ -152,7 +164,7 @@ impl Builder {
         if name.len() > MAX_NAME_BYTES {
             let expected = format!("a name of at most {MAX_NAME_BYTES} bytes");
             let found = format!("one of {} bytes", name.len());
-            return Err(scanner.error(ReadErrorKind::LimitExceeded, name_at, expected, found));
+            return Err(scanner.error(ReadErrorKind::LimitExceeded, at, expected, found));
         }
         if let Some(&first) = self.names.get(name) {
             let joint = self.joints.len();
@@ -165,7 +177,7 @@ impl Builder {
         } else {
             self.names.insert(name.to_vec(), self.joints.len());
         }
-        self.push(scanner, at, name.to_vec(), IsEndSite::No)
+        Ok(())
     }
 
     /// Notes a ROOT inside a joint, a JOINT outside, and a second ROOT.
@@ -192,17 +204,21 @@ impl Builder {
             return Err(scanner.unexpected(self.expected_here()));
         };
         let parent = parent.joint;
-        let words = scanner.take_name();
-        if !words.eq_ignore_ascii_case(b"Site") {
+        let written = scanner.take_end_name();
+        if !written.is_site {
             scanner.warn(WarningCode::EndSiteWords, at, || {
-                format!("`End` is followed by {}, read as an End Site", quote(words))
+                let words = quote(written.words);
+                format!("`End` is followed by {words}, read as an End Site")
             });
         }
-        let mut name = self.joints[parent].name.clone();
-        if name.len() + 4 <= MAX_NAME_BYTES {
-            name.extend_from_slice(b"_end");
-        }
-        self.push(scanner, at, name, IsEndSite::Yes)
+        let name = match written.end_name {
+            EndName::Implied => implied_end_name(&self.joints[parent].name),
+            EndName::Comment | EndName::Word => {
+                self.note_name(scanner, at, written.name)?;
+                written.name.to_vec()
+            }
+        };
+        self.push(scanner, at, name, Some(written.end_name))
     }
 
     fn push(
@@ -210,7 +226,7 @@ impl Builder {
         scanner: &mut Scanner<'_>,
         at: usize,
         name: Vec<u8>,
-        is_end_site: IsEndSite,
+        end_site: Option<EndName>,
     ) -> Result<(), ReadError> {
         if self.open.len() >= MAX_DEPTH {
             let expected = format!("joints nested at most {MAX_DEPTH} deep");
@@ -236,7 +252,8 @@ impl Builder {
             parent,
             offset: [0.0; 3],
             channels: Vec::new(),
-            is_end_site: is_end_site == IsEndSite::Yes,
+            is_end_site: end_site.is_some(),
+            end_name: end_site.unwrap_or_default(),
         });
         self.open.push(Open {
             joint,
@@ -254,6 +271,7 @@ impl Builder {
         let joint = &mut self.joints[open.joint];
         if joint.is_end_site {
             joint.is_end_site = false;
+            joint.end_name = EndName::Implied;
             let name = quote(&joint.name);
             scanner.warn(WarningCode::EndSiteAsJoint, at, || {
                 format!("an End Site with {what}, read as a joint named {name}")
@@ -368,12 +386,6 @@ impl Builder {
     }
 }
 
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum IsEndSite {
-    No,
-    Yes,
-}
-
 /// Skips numbers after the third of an OFFSET, as some exporters put a rotation there.
 fn skip_extra_numbers(scanner: &mut Scanner<'_>) -> Result<(), ReadError> {
     scanner.skip_blanks();
@@ -412,13 +424,41 @@ fn take_channel(scanner: &mut Scanner<'_>) -> Result<Option<Channel>, ReadError>
     if is_keyword {
         return Ok(None);
     }
-    let channel = channel(&upper).ok_or_else(|| {
-        let mut error = scanner.unexpected("a channel name such as `Xrotation`");
-        error.kind = ReadErrorKind::UnknownChannel;
-        error
-    })?;
+    let Some(channel) = channel(&upper) else {
+        return Err(unknown_channel(scanner, word, &upper));
+    };
     scanner.pos += word.len();
     Ok(Some(channel))
+}
+
+/// The refusal of a word that is no Euler channel, which says so where it is one of a quaternion.
+#[cold]
+fn unknown_channel(scanner: &mut Scanner<'_>, word: &[u8], upper: &[u8]) -> ReadError {
+    let at = scanner.pos;
+    let kind = ReadErrorKind::UnknownChannel;
+    if is_quaternion(upper) {
+        let expected = "Euler channels such as `Xrotation`";
+        let found = format!(
+            "the quaternion channel {}, which BVH does not have",
+            quote(word)
+        );
+        return scanner.error(kind, at, expected, found);
+    }
+    let found = scanner.describe_here();
+    scanner.error(kind, at, "a channel name such as `Xrotation`", found)
+}
+
+/// Whether a word in upper case is a channel of the quaternions that some programs write into BVH:
+/// `Wrotation` after the three of an axis each, `Quaternion` for all four, `Qx` or `Xquaternion` for one.
+fn is_quaternion(upper: &[u8]) -> bool {
+    const PARTS: [&[u8]; 4] = [b"X", b"Y", b"Z", b"W"];
+    upper == b"WROTATION"
+        || upper.starts_with(b"QUAT")
+        || upper.ends_with(b"QUATERNION")
+        || upper.ends_with(b"QUAT")
+        || upper
+            .strip_prefix(b"Q")
+            .is_some_and(|part| PARTS.contains(&part.strip_suffix(b"ROTATION").unwrap_or(part)))
 }
 
 /// The channel of a name in upper case.

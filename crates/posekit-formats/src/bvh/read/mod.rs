@@ -14,7 +14,7 @@ mod scan;
 
 use std::ops::ControlFlow;
 
-use super::Bvh;
+use super::{Bvh, Gap};
 use crate::report::{Import, ReadError, ReadErrorKind};
 use scan::Scanner;
 
@@ -85,6 +85,34 @@ pub fn read_with(
     options: ReadOptions,
     mut progress: impl FnMut(usize) -> ControlFlow<()>,
 ) -> Result<Import<Bvh>, ReadError> {
+    read_document(bytes, options, &mut progress, None)
+}
+
+/// Reads a BVH file in which values of the rows may be no numbers (`nan`, `inf`, `-nan(ind)`, `1.#QNAN`, or
+/// beyond a double), and says where: the gaps, by frame and column. The document holds 0 in their place, which
+/// means nothing; [`bridge_gaps`](crate::bvh::bridge_gaps) makes a motion of it.
+///
+/// # Errors
+///
+/// As [`read()`], but for those values.
+pub fn read_with_gaps(bytes: &[u8]) -> Result<(Import<Bvh>, Vec<Gap>), ReadError> {
+    let mut gaps = Vec::new();
+    let mut progress = |_| ControlFlow::Continue(());
+    let import = read_document(
+        bytes,
+        ReadOptions::default(),
+        &mut progress,
+        Some(&mut gaps),
+    )?;
+    Ok((import, gaps))
+}
+
+fn read_document(
+    bytes: &[u8],
+    options: ReadOptions,
+    progress: &mut dyn FnMut(usize) -> ControlFlow<()>,
+    gaps: Option<&mut Vec<Gap>>,
+) -> Result<Import<Bvh>, ReadError> {
     let mut scanner = Scanner::new(bytes);
     check_is_text(&mut scanner)?;
     let hierarchy = hierarchy::read(&mut scanner)?;
@@ -98,7 +126,8 @@ pub fn read_with(
             &mut scanner,
             channel_count,
             options,
-            &mut progress,
+            progress,
+            gaps,
         )?)
     } else {
         None

@@ -6,15 +6,17 @@ use super::motion_header::{self, MotionHeader};
 use super::rows::{self, Lines, Rows};
 use super::scan::{Scanner, is_blank};
 use super::{Extent, PROGRESS_BYTES, ReadOptions, RowParser, number};
-use crate::bvh::BvhMotion;
+use crate::bvh::{BvhMotion, Gap};
 use crate::report::{ReadError, ReadErrorKind, WarningCode};
 
-/// Reads the section; the scanner stands after MOTION.
+/// Reads the section; the scanner stands after MOTION. Values that are no numbers go to `gaps`, or are an error
+/// without it.
 pub(super) fn read(
     scanner: &mut Scanner<'_>,
     channel_count: usize,
     options: ReadOptions,
     progress: &mut dyn FnMut(usize) -> ControlFlow<()>,
+    gaps: Option<&mut Vec<Gap>>,
 ) -> Result<BvhMotion, ReadError> {
     let mut header = motion_header::read(scanner)?;
     if options.extent == Extent::Beginning {
@@ -31,6 +33,7 @@ pub(super) fn read(
         rows: Rows::new(channel_count, values_expected, Lines::Ignored),
         promised: header.frame_count.map(|frames| frames * channel_count),
         parser: options.row_parser,
+        keeps_gaps: gaps.is_some(),
         progress,
     };
     walk.read(scanner)?;
@@ -40,7 +43,10 @@ pub(super) fn read(
         walk.rows.restart(Lines::Kept);
         walk.read(scanner)?;
     }
-    let values = finish(scanner, walk.rows, &header);
+    let mut values = finish(scanner, walk.rows, &header);
+    if let Some(gaps) = gaps {
+        take_gaps(&mut values, channel_count, gaps);
+    }
     Ok(BvhMotion {
         frame_time_secs,
         frame_count: values.len() / channel_count,
@@ -89,6 +95,8 @@ struct RowWalk<'p> {
     /// How many values the header promises.
     promised: Option<usize>,
     parser: RowParser,
+    /// Whether a value that is no number is a gap, NaN until the rows are whole.
+    keeps_gaps: bool,
     progress: &'p mut dyn FnMut(usize) -> ControlFlow<()>,
 }
 
@@ -118,6 +126,10 @@ impl RowWalk<'_> {
                 Err(_) if self.has_all_rows() => {
                     note_trailing_text(scanner);
                     break;
+                }
+                Err(error) if self.keeps_gaps && error.kind == ReadErrorKind::NotFinite => {
+                    number::skip(scanner);
+                    self.rows.push(f64::NAN, scanner.bytes.len() - scanner.pos);
                 }
                 Err(error) => return Err(error),
             }
@@ -157,6 +169,19 @@ impl RowWalk<'_> {
             } else if !scanner.skip_separator(byte) {
                 return;
             }
+        }
+    }
+}
+
+/// Where the values are NaN, and 0 in their place.
+fn take_gaps(values: &mut [f64], channel_count: usize, gaps: &mut Vec<Gap>) {
+    for (place, value) in values.iter_mut().enumerate() {
+        if value.is_nan() {
+            *value = 0.0;
+            gaps.push(Gap {
+                frame: place / channel_count,
+                column: place % channel_count,
+            });
         }
     }
 }

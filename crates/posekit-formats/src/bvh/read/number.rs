@@ -43,6 +43,13 @@ pub(super) fn read(scanner: &mut Scanner<'_>, expected: &str) -> Result<f64, Rea
     }
 }
 
+/// Skips what stands where a number belongs, to the next blank, comma or brace.
+pub(super) fn skip(scanner: &mut Scanner<'_>) {
+    let rest = &scanner.bytes[scanner.pos..];
+    let ends = |&byte: &u8| is_blank(byte) || matches!(byte, b',' | b';' | b'{' | b'}');
+    scanner.pos += rest.iter().position(ends).unwrap_or(rest.len());
+}
+
 /// Measures the number at the current position; `None` when there is none or it runs into other text.
 fn extent(scanner: &mut Scanner<'_>) -> Option<Extent> {
     let text = &scanner.bytes[scanner.pos..];

@@ -1,5 +1,6 @@
 //! The scanner: bytes to words, and what lies between them.
 
+use crate::bvh::EndName;
 use crate::report::{ImportReport, ReadError, ReadErrorKind, Reporter, WarningCode, quote};
 
 /// What commas mean in this file, decided at the first one that tells.
@@ -163,6 +164,59 @@ impl<'a> Scanner<'a> {
         self.pos += length;
         rest[..length].trim_ascii()
     }
+}
+
+/// What stands after `End`.
+pub(super) struct WrittenEnd<'a> {
+    /// Whether the first word is `Site`.
+    pub(super) is_site: bool,
+    /// All words, without a comment.
+    pub(super) words: &'a [u8],
+    /// Where the name comes from.
+    pub(super) end_name: EndName,
+    /// The name, empty where there is none.
+    pub(super) name: &'a [u8],
+}
+
+impl<'a> Scanner<'a> {
+    /// Takes what stands after `End` up to the brace or the line's end: `Site`, a name after it, or a name
+    /// in a comment, as `#name: LeftToeTip`. Another comment is left where it is.
+    pub(super) fn take_end_name(&mut self) -> WrittenEnd<'a> {
+        let words = self.take_name();
+        let length = words
+            .iter()
+            .position(|&b| is_blank(b))
+            .unwrap_or(words.len());
+        let (first, rest) = words.split_at(length);
+        let is_site = first.eq_ignore_ascii_case(b"Site");
+        let word = rest.trim_ascii();
+        let mut end = WrittenEnd {
+            is_site,
+            words,
+            end_name: EndName::Implied,
+            name: b"",
+        };
+        if is_site && !word.is_empty() {
+            (end.end_name, end.name) = (EndName::Word, word);
+        } else if is_site && let Some((name, length)) = name_in_comment(&self.bytes[self.pos..]) {
+            (end.end_name, end.name) = (EndName::Comment, name);
+            self.pos += length;
+        }
+        end
+    }
+}
+
+/// The name in a comment `#name: LeftToeTip`, and how many bytes it takes up to the brace or the line's
+/// end.
+fn name_in_comment(text: &[u8]) -> Option<(&[u8], usize)> {
+    const LABEL: &[u8] = b"name";
+    let length = memchr::memchr3(b'{', b'\n', b'\r', text).unwrap_or(text.len());
+    let comment = text[..length].trim_ascii_start().strip_prefix(b"#")?;
+    let comment = comment.trim_ascii_start();
+    let label = comment.get(..LABEL.len())?;
+    let after = comment[LABEL.len()..].trim_ascii_start();
+    let name = after.strip_prefix(b":")?.trim_ascii();
+    (label.eq_ignore_ascii_case(LABEL) && !name.is_empty()).then_some((name, length))
 }
 
 /// Where a comment begins in a line that starts with a name: a `#` or `//` after a blank.

@@ -9,7 +9,7 @@ use posekit::pose::LocalPose;
 use posekit_formats::scene::{MotionLayer, SAMPLE_PREFIX, Scene, SkeletonSource};
 
 use super::{Authored, Files};
-use crate::state::clip::{Clip, Source, rest_motion};
+use crate::state::clip::{Clip, Reading, Source, rest_motion};
 
 /// What an authored clip starts with.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -107,6 +107,8 @@ fn first_key(motion: &Motion, pose: &LocalPose) -> Result<Animation, String> {
 /// What a scene calls the file of a clip: `None` for one that is in no file it could name.
 fn file_name(clip: &Clip) -> Option<String> {
     match &clip.source {
+        // A scene has no word for another way of reading a file.
+        Source::File(_) if clip.reading != Reading::default() => None,
         Source::File(path) if cfg!(target_arch = "wasm32") => {
             let name = path.file_name()?.to_str()?;
             Some(name.to_owned())

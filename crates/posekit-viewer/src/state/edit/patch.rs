@@ -4,7 +4,8 @@
 use std::sync::Arc;
 
 use glam::{DQuat, Quat, Vec3};
-use posekit::motion::{Channel, Motion, PositionPolicy};
+use posekit::figure::UpAxis;
+use posekit::motion::{Channel, Motion};
 use posekit::pose::LocalPose;
 use posekit::rotation::{Axis, EulerOrder};
 use posekit::skeleton::JointId;
@@ -12,7 +13,7 @@ use posekit_formats::bvh::Bvh;
 use posekit_formats::bvh::edit::{set_rotation, set_translation};
 
 use super::spread::Spread;
-use crate::state::clip::Clip;
+use crate::state::clip::{Clip, Reading};
 
 /// What the file lets a joint do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -181,7 +182,7 @@ impl Patch {
                 values.extend(columns.iter().map(|&column| frame[column]));
             }
         }
-        self.write_document(document);
+        self.write_document(document, clip.reading);
         let before = self.swap_motion(Arc::make_mut(&mut clip.motion));
         Arc::make_mut(&mut clip.global).update(&clip.motion);
         Replaced {
@@ -218,18 +219,28 @@ impl Patch {
 
     /// What a joint's channels cannot say is left as it was: the motion has joints turn and move only
     /// where they can.
-    fn write_document(&self, document: &mut Bvh) {
+    ///
+    /// The motion stands on Y and the document as its file does, so roots are turned back.
+    fn write_document(&self, document: &mut Bvh, reading: Reading) {
+        let file_from_y_up = reading.up.y_up_from_file().inverse();
+        let turn_of = |document: &Bvh, joint: JointId| {
+            let is_root = document.joints[joint.index()].parent.is_none();
+            (is_root && reading.up != UpAxis::Y).then_some(file_from_y_up)
+        };
         for step in 0..self.frame_count {
             let frame = self.first + step;
             let rotations = &self.rotations[step * self.turned.len()..];
             for (&joint, &rotation) in self.turned.iter().zip(rotations) {
+                let rotation = turn_of(document, joint).map_or(rotation, |turn| turn * rotation);
                 // The angles nearest to those that were there.
                 set_rotation(document, joint.index(), frame, double(rotation), frame).ok();
             }
             let translations = &self.translations[step * self.moved.len()..];
             for (&joint, &translation) in self.moved.iter().zip(translations) {
-                let (translation, policy) = (translation.as_dvec3(), PositionPolicy::default());
-                set_translation(document, joint.index(), frame, translation, policy).ok();
+                let translation =
+                    turn_of(document, joint).map_or(translation, |turn| turn * translation);
+                let (translation, positions) = (translation.as_dvec3(), reading.positions);
+                set_translation(document, joint.index(), frame, translation, positions).ok();
             }
         }
     }

@@ -20,7 +20,7 @@ use posekit_render::scene::Scene;
 use posekit_render::stage::{Actor, Stage, StageOptions};
 
 use crate::state::camera::ViewCamera;
-use crate::state::clip::{Clip, index_to_f64};
+use crate::state::clip::{Clip, Reading, index_to_f64};
 use crate::state::display::{Display, Look, PoseShown};
 use crate::state::transport::Transport;
 
@@ -194,6 +194,29 @@ impl Session {
             }
         }
         self.set_stage();
+    }
+
+    /// Reads a clip's numbers in another way. An edited clip, whose history is of the numbers as they are read,
+    /// stays as it is, and so does an authored one.
+    pub fn set_reading(&mut self, id: ClipId, reading: Reading) {
+        let Some(index) = self.index_of(id) else {
+            return;
+        };
+        let old = &self.clips[index].clip;
+        if old.reading == reading || self.is_edited(id) || self.authoring.open.contains_key(&id) {
+            return;
+        }
+        let Ok(clip) = old.read_as(reading) else {
+            return;
+        };
+        self.replace(id, clip);
+        self.editing.changed.insert(id);
+    }
+
+    /// An open clip.
+    #[must_use]
+    pub fn clip(&self, id: ClipId) -> Option<&Arc<Clip>> {
+        Some(&self.clips[self.index_of(id)?].clip)
     }
 
     /// Hands in what the checks found in a clip.

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use glam::{DMat3, DQuat, DVec3, Vec3};
-use posekit::motion::{Channel, ChannelLayout, Motion, PositionPolicy};
+use posekit::motion::{Channel, ChannelLayout, Motion, PositionPolicies, PositionPolicy};
 use posekit::rotation::Axis;
 use posekit::skeleton::{JointId, SkeletonBuilder};
 use proptest::prelude::*;
@@ -28,20 +28,26 @@ fn expected(
     layout: &ChannelLayout,
     row: &[f64],
     joint: JointId,
-    policy: PositionPolicy,
+    policies: PositionPolicies,
 ) -> (DQuat, DVec3) {
     let skeleton = motion.skeleton();
     let offset = skeleton.rest_translation(joint).as_dvec3();
-    let adds = policy == PositionPolicy::AddToRootOffset && skeleton.parent(joint).is_none();
+    let policy = match skeleton.parent(joint) {
+        None => policies.root,
+        Some(_) => policies.others,
+    };
     let mut translation = offset;
     let mut rotation = None;
     let columns = layout.columns().iter().zip(row);
     for (&(_, channel), &value) in columns.filter(|((other, _), _)| *other == joint) {
         match channel {
-            Channel::Position(axis) => {
-                let base = if adds { offset[axis.index()] } else { 0.0 };
-                translation[axis.index()] = base + value;
-            }
+            Channel::Position(axis) => match policy {
+                PositionPolicy::Replace => translation[axis.index()] = value,
+                PositionPolicy::Add => {
+                    translation[axis.index()] = offset[axis.index()] + value;
+                }
+                PositionPolicy::Ignore => {}
+            },
             Channel::Rotation(axis) => {
                 rotation = Some(rotation.unwrap_or(DMat3::IDENTITY) * elementary(axis, value));
             }
@@ -86,12 +92,12 @@ proptest! {
     #[test]
     fn every_joint_of_every_frame_is_the_product_of_its_channels(
         (skeleton, layout, rows) in any_rows(),
-        adds: bool,
+        root in 0_usize..3,
+        others in 0_usize..3,
     ) {
-        let policy = match adds {
-            true => PositionPolicy::AddToRootOffset,
-            false => PositionPolicy::Replace,
-        };
+        const POLICIES: [PositionPolicy; 3] =
+            [PositionPolicy::Replace, PositionPolicy::Add, PositionPolicy::Ignore];
+        let policy = PositionPolicies { root: POLICIES[root], others: POLICIES[others] };
         let motion = Motion::from_channel_rows(Arc::clone(&skeleton), 0.04, &layout, &rows, policy);
         prop_assert_eq!(motion.frame_count(), rows.len() / layout.column_count());
         for (frame, row) in rows.chunks_exact(layout.column_count()).enumerate() {
@@ -136,9 +142,11 @@ fn root_translation(channels: &[Channel], policy: PositionPolicy) -> Vec3 {
 #[test]
 fn channels_replace_the_offset_or_are_added_to_it() {
     let all = AXES.map(Channel::Position);
-    let (replace, add) = (PositionPolicy::Replace, PositionPolicy::AddToRootOffset);
+    let (replace, add) = (PositionPolicy::Replace, PositionPolicy::Add);
     assert_eq!(root_translation(&all, replace), Vec3::new(10.0, 20.0, 30.0));
     assert_eq!(root_translation(&all, add), Vec3::new(13.0, 18.0, 31.0));
+    let ignore = PositionPolicy::Ignore;
+    assert_eq!(root_translation(&all, ignore), Vec3::new(3.0, -2.0, 1.0));
     // A coordinate without a channel stays at the OFFSET, whatever the policy.
     let two = [Channel::Position(Axis::Z), Channel::Position(Axis::X)];
     assert_eq!(root_translation(&two, replace), Vec3::new(10.0, -2.0, 30.0));
@@ -149,18 +157,35 @@ fn channels_replace_the_offset_or_are_added_to_it() {
 }
 
 #[test]
-fn only_roots_add() {
+fn roots_and_other_joints_each_have_their_own_policy() {
     let skeleton = Arc::new(hand_drawn());
     let (foot, prop) = (JointId::new(5), JointId::new(8));
+    let offset = |joint| skeleton.rest_translation(joint);
     let layout = ChannelLayout::new([
         (foot, Channel::Position(Axis::Y)),
         (prop, Channel::Position(Axis::X)),
     ]);
     let rows = [-7.0, 7.0];
-    let policy = PositionPolicy::AddToRootOffset;
-    let motion = Motion::from_channel_rows(skeleton, 0.04, &layout, &rows, policy);
-    assert_eq!(motion.translation(0, foot), Vec3::new(0.0, -7.0, 0.0));
-    assert_eq!(motion.translation(0, prop), Vec3::new(10.0, 0.0, 0.0));
+    let places = |root, others| {
+        let policies = PositionPolicies { root, others };
+        let motion =
+            Motion::from_channel_rows(Arc::clone(&skeleton), 0.04, &layout, &rows, policies);
+        (motion.translation(0, foot), motion.translation(0, prop))
+    };
+    use PositionPolicy::{Add, Ignore, Replace};
+    assert_eq!(
+        places(Add, Replace),
+        (Vec3::new(0.0, -7.0, 0.0), Vec3::new(10.0, 0.0, 0.0))
+    );
+    assert_eq!(
+        places(Replace, Add),
+        (offset(foot) + Vec3::Y * -7.0, Vec3::new(7.0, 0.0, 0.0))
+    );
+    assert_eq!(
+        places(Replace, Ignore),
+        (offset(foot), Vec3::new(7.0, 0.0, 0.0))
+    );
+    assert_eq!(places(Ignore, Ignore), (offset(foot), offset(prop)));
 }
 
 #[test]
