@@ -139,10 +139,11 @@ fn arm_posture(arms: &LimbPair, up: Vec3, left: Vec3) -> ArmPosture {
     }
 }
 
-pub(super) fn legs_and_arms(
-    skeleton: &Skeleton,
-    rest: &GlobalPose,
-) -> Option<(LimbPair, LimbPair)> {
+fn legs_and_arms(skeleton: &Skeleton, rest: &GlobalPose) -> Option<(LimbPair, LimbPair)> {
+    let mut depths: Vec<usize> = Vec::with_capacity(skeleton.joint_count());
+    for parent in skeleton.parents() {
+        depths.push(parent.map_or(0, |parent| depths[parent.index()] + 1));
+    }
     let mut limbs: Vec<LimbPair> = skeleton
         .symmetric_pairs()
         .into_iter()
@@ -151,7 +152,7 @@ pub(super) fn legs_and_arms(
                 .iter()
                 .all(|&j| skeleton.children(j).is_empty())
         })
-        .filter_map(|pair| limb_pair(skeleton, rest, pair.left, pair.right))
+        .filter_map(|pair| limb_pair(skeleton, &depths, rest, [pair.left, pair.right]))
         .collect();
     let longest = limbs
         .iter()
@@ -176,22 +177,31 @@ pub(super) fn legs_and_arms(
 
 fn limb_pair(
     skeleton: &Skeleton,
+    depths: &[usize],
     rest: &GlobalPose,
-    left: JointId,
-    right: JointId,
+    [left, right]: [JointId; 2],
 ) -> Option<LimbPair> {
-    let chain = skeleton.chain(left, right)?;
-    // The first joints below the parting: from there on the two limbs are apart.
-    let left_start = chain.climbing().iter().rev().nth(1)?;
-    let right_start = chain.descending().get(1)?;
+    // The first joints below the parting: from there on the two limbs are apart. Only the limbs are walked,
+    // and not the way down to the root.
+    let [mut left_start, mut right_start] = [left, right];
+    while skeleton.parent(left_start) != skeleton.parent(right_start) {
+        let climbing = if depths[left_start.index()] >= depths[right_start.index()] {
+            &mut left_start
+        } else {
+            &mut right_start
+        };
+        *climbing = skeleton.parent(*climbing)?;
+    }
+    if left_start == right_start {
+        return None;
+    }
+    let parting = skeleton.parent(left_start)?;
     let place = |joint: JointId| rest.positions[joint.index()];
     Some(LimbPair {
-        parting_joint: chain.top(),
-        ends: [left, right],
-        parting_depth: skeleton.depth(chain.top()),
-        parting: place(chain.top()),
-        left: place(left) - place(*left_start),
-        right: place(right) - place(*right_start),
+        parting_depth: depths[parting.index()],
+        parting: place(parting),
+        left: place(left) - place(left_start),
+        right: place(right) - place(right_start),
         left_end: place(left),
         right_end: place(right),
     })

@@ -169,9 +169,12 @@ impl SkeletonBuilder {
             .iter()
             .enumerate()
             .filter(|(_, joint)| joint.parent.is_none());
+        let mut by_unique_name: Vec<JointId> = (0..self.joints.len()).map(JointId::new).collect();
+        by_unique_name.sort_by(|a, b| unique_names[a.index()].cmp(&unique_names[b.index()]));
         let mut skeleton = Skeleton {
             names: Vec::with_capacity(self.joints.len()),
             unique_names,
+            by_unique_name,
             parents: self
                 .joints
                 .iter()

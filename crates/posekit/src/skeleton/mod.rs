@@ -52,6 +52,8 @@ pub struct Link {
 pub struct Skeleton {
     names: Vec<String>,
     unique_names: Vec<String>,
+    /// All joints, sorted by unique name.
+    by_unique_name: Vec<JointId>,
     parents: Vec<Option<JointId>>,
     roots: Vec<JointId>,
     links_by_depth: Vec<Link>,
@@ -86,10 +88,11 @@ impl Skeleton {
 
     /// The joint of that unique name; the first joint of a shared name keeps it as it is.
     pub fn find(&self, unique_name: &str) -> Option<JointId> {
-        self.unique_names
-            .iter()
-            .position(|name| name == unique_name)
-            .map(JointId::new)
+        let name = |joint: &JointId| self.unique_names[joint.index()].as_str();
+        let place = self
+            .by_unique_name
+            .binary_search_by(|joint| name(joint).cmp(unique_name));
+        place.ok().map(|place| self.by_unique_name[place])
     }
 
     /// The joint's parent, or `None` for a root.
