@@ -189,7 +189,11 @@ fn load_import_by(
         Source::File(path) if scene_file::is_scene(path) => {
             let import = scene_file::document(path)?;
             refuse_repairs(&name, &import.report, global)?;
-            return Ok((import, Vec::new()));
+            return Ok(ImportWithGaps {
+                import,
+                bytes: Vec::new(),
+                gaps: Vec::new(),
+            });
         }
         Source::File(path) => file_bytes(path)?,
         Source::Stdin => stdin_bytes()?,

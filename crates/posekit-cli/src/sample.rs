@@ -1,7 +1,5 @@
 //! The clips that the program makes itself, by name.
 
-use std::sync::Arc;
-
 use posekit::motion::Motion;
 use posekit::rotation::EulerOrder;
 use posekit_formats::bvh::Bvh;

@@ -4,6 +4,7 @@
 //! `cargo bench -p posekit-formats --bench growth [SECONDS]`
 
 #[path = "../../../benches/harness.rs"]
+#[allow(dead_code, reason = "each bench uses a part of it")]
 mod harness;
 
 use std::fmt::Write as _;
@@ -26,7 +27,8 @@ const FRAMES: usize = 10_000;
 const TRACKS: usize = 100;
 
 fn main() {
-    let shapes: [(&str, fn(usize) -> String); 4] = [
+    type Written = fn(usize) -> String;
+    let shapes: [(&str, Written); 4] = [
         ("branches in one place", |n| branches(n, |_| (0.0, 1.0))),
         ("branches in a row", |n| branches(n, |i| (i as f64, 1.0))),
         ("roots", roots),
@@ -84,7 +86,8 @@ fn main() {
                 black_box(scene::read(text.as_bytes()).is_ok());
             })
             .job(format!("put together {tracks}"), *tracks, move || {
-                let none = |_: &str| Err(scene::MotionFileError(String::new()));
+                let none =
+                    |_: &str| Err::<scene::FileMotion, _>(scene::MotionFileError(String::new()));
                 black_box(Shot::new(&scene, none).is_ok());
             });
     }

@@ -110,7 +110,7 @@ fn frames_and_joints_that_are_not_there_say_what_is() {
         error,
         "error: arm.bvh: frame 9 is past the end; the frames are 0..3\n"
     );
-    for (typed, meant) in [("Elbow", "elbow"), ("elbwo", "elbow"), ("bse", "base")] {
+    for (typed, meant) in [("Elbow", "elbow"), ("elbwo", "elbow"), ("bas", "base")] {
         let error = folder.fail(1, &["fk", "arm.bvh", "--joints", typed]);
         let wanted =
             format!("error: arm.bvh: no joint is called '{typed}'; did you mean '{meant}'\n");

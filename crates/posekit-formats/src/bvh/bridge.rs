@@ -105,8 +105,10 @@ enum Group {
     Rotation,
 }
 
-/// Fills gaps of at most `most_frames` frames, and says what was filled, joint by joint. See the
-/// [module's](self) documentation for the method.
+/// Fills gaps of at most `most_frames` frames, and says what was filled, joint by joint.
+///
+/// Rotations turn the short way at constant speed (Shoemake, "Animating rotation with quaternion curves", SIGGRAPH
+/// 1985), positions move in a straight line; at the beginning and the end the nearest frame is held.
 ///
 /// # Errors
 /// When a gap is longer, or there is no frame to start from; nothing is filled then.
@@ -250,7 +252,7 @@ fn bridge(bvh: &mut Bvh, joint: usize, start: usize, group: &Group, run: FrameRa
                     order
                         .from_quat_near(slerp(a, b, t), near.map(f64::to_radians))
                         .angles_rad
-                        .map(f64::to_degrees)
+                        .map(in_round_degrees)
                 };
                 set_angles(row, &rotations, angles);
             }
@@ -266,4 +268,10 @@ fn bridge(bvh: &mut Bvh, joint: usize, start: usize, group: &Group, run: FrameRa
         }
         previous.copy_from_slice(row);
     }
+}
+
+/// Degrees to nine decimals, so that a third of 30 is written as 10; no negative zero.
+fn in_round_degrees(angle_rad: f64) -> f64 {
+    const UNITS: f64 = 1e9;
+    (angle_rad.to_degrees() * UNITS).round() / UNITS + 0.0
 }

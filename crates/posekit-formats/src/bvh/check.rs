@@ -10,7 +10,7 @@ use posekit::skeleton::{JointId, Skeleton, SkeletonError};
 
 use super::bridge::in_words;
 use super::{Bvh, BvhJoint, Gap, JointGaps, bridge_gaps, gaps_by_joint};
-use crate::report::{self, ImportReport, Location, Warning, WarningCode};
+use crate::report::{self, ImportReport, Place, Warning, WarningCode};
 
 /// One entry of a file's check, ready to be shown: a [`Finding`] or a reader's [`Warning`].
 #[derive(Clone, Debug, PartialEq)]

@@ -6,7 +6,9 @@ use std::sync::Arc;
 use posekit::keyframe::Animation;
 use posekit::motion::{Motion, PositionPolicy};
 
-use super::{AUTHORED_WALK, FileMotion, FileRole, SceneReadError, Shot, is_scene_name, read};
+use super::{
+    AUTHORED_WALK, FileMotion, FileRole, SceneProblem, SceneReadError, Shot, is_scene_name, read,
+};
 use crate::gltf::Wanted;
 use crate::report::{Import, ImportReport};
 use crate::{bvh, gltf};

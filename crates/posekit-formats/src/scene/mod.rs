@@ -32,11 +32,11 @@ mod write;
 
 pub use document::{
     Camera, EulerNotation, FileRole, InlineJoint, JointTrack, JointValues, Light, MotionLayer,
-    Prop, Scene, SceneError, SkeletonSource,
+    Prop, Scene, SceneError, SceneWriteError, SkeletonSource, check,
 };
 pub use file_motion::FileMotion;
 pub use files::{AUTHORED_WALK_NAME, MotionFileError, SAMPLE_PREFIX, import_of, sample_motion};
-pub use read::{SceneProblem, SceneProblemKind, SceneReadError, read};
+pub use read::{SceneProblem, SceneProblemKind, SceneReadError, read, read_with_warnings};
 pub use shot::{Shot, ShotError};
 pub(crate) use write::quoted;
 pub use write::write;

@@ -265,7 +265,7 @@ fn channels_that_make_no_sense_are_left_out() {
         ("", ordered),
     ];
     // Three times out of nothing are three zeros, which do not rise; the other counts are promises.
-    let no_view = [3, 1 << 40].map(|count| {
+    let no_view = [3, 1_u64 << 40].map(|count| {
         let first = r#""bufferView": 0, "#;
         let counted = format!("\"count\": {count}}},");
         ACCESSORS

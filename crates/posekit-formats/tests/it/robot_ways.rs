@@ -244,7 +244,7 @@ fn a_redundant_arm_has_no_end_of_ways() {
 #[test]
 fn what_is_out_of_reach_has_no_way() {
     for (robot, tool) in [sample("arm6"), of_rows(&UR5, TAU)] {
-        let mut target = target_of(&robot, tool, &vec![0.1; 6]);
+        let mut target = target_of(&robot, tool, &[0.1; 6]);
         target.position_in_world *= 20.0;
         let found = ways_to(&robot, &[0.0; 6], &target, &WaysConfig::default());
         assert!(found.ways.is_empty() && !found.is_endless);

@@ -200,7 +200,7 @@ fn moving_pieces_without_a_mass_are_found() {
     }
 }
 
-/// Full shapes of the density of water (`make_inertials.py` writes the tensors, too). MuJoCo 3.17.0 takes all three files.
+/// Full shapes of the density of water (`make_inertials.py` writes the tensors, too). `MuJoCo` 3.17.0 takes all three files.
 #[test]
 fn links_of_the_samples_weigh_what_their_shapes_do() {
     for (name, _) in urdf::sample::names() {

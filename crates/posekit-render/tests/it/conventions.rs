@@ -3,6 +3,7 @@
 use crate::inside::assert_fits;
 
 #[path = "../../../posekit/tests/it/body/conventions.rs"]
+#[allow(dead_code, reason = "the tests of the landmarks ask it for more")]
 mod figures;
 
 #[test]

@@ -172,7 +172,10 @@ impl Clip {
         self.global = Arc::new(motion.to_global());
         self.motion = motion;
         self.reading = Reading::default();
-        self.report = ImportReport::default();
+        // What was wrong with its own text is gone with it; the files that a scene names are as they were.
+        self.report
+            .warnings
+            .retain(|warning| warning.file.is_some());
     }
 
     fn new(

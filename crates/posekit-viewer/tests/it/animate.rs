@@ -591,7 +591,7 @@ fn copied_keys_find_their_joints_by_name_elsewhere() {
         Scene::new(scene::SkeletonSource::File("sample:arm".into())),
         {
             let arm = posekit::sample::by_name("arm").expect("a sample");
-            [("sample:arm".to_owned(), std::sync::Arc::new(arm))].into()
+            [("sample:arm".to_owned(), std::sync::Arc::new(arm).into())].into()
         },
     );
     let none = none.expect("an arm of steel");

@@ -293,7 +293,7 @@ fn the_ways_are_listed_and_stepped_through() {
     let bench = bench_of(&window);
     let ways = bench.ways().expect("they were looked for");
     assert_eq!(ways.method, WaysMethod::SphericalWrist);
-    assert!(ways.ways.len() > 2);
+    assert!(ways.ways.len() > 1);
     // The first step leaves the first way, which is where the arm stood.
     assert_eq!(bench.way_taken(), Some(3 % ways.ways.len()));
     assert!(bench.is_reached(bench.miss().expect("asked")));

@@ -126,7 +126,7 @@ impl Anatomy {
     }
 
     /// Finds the parts in the skeleton of a motion: in its rest pose with the bone lengths of its
-    /// first frame, or, where that tells nothing, in one of its frames.
+    /// first frame, or, where that tells nothing or is no posture, in one of its frames.
     ///
     /// # Errors
     /// As [`Anatomy::find`].
@@ -137,20 +137,23 @@ impl Anatomy {
         if frame_count > 0 {
             local.translations = motion.pose(0).translations;
         }
-        let at_rest = Self::find(skeleton, &local.to_global(skeleton));
-        let frames = [0, frame_count / 2];
-        match at_rest {
-            Err(reason) if reason != NoAnatomy::FourLegs && reason != NoAnatomy::ManyLimbs => {
-                frames
-                    .into_iter()
-                    .filter(|&frame| frame < frame_count)
-                    .find_map(|frame| {
-                        Self::find(skeleton, &motion.pose(frame).to_global(skeleton)).ok()
-                    })
-                    .ok_or(reason)
-            }
-            found => found,
+        let rest = local.to_global(skeleton);
+        let at_rest = Self::find(skeleton, &rest);
+        let is_settled = match &at_rest {
+            // Without names a rest pose that is no posture does not tell left from right.
+            Ok(anatomy) => anatomy.certainty == Certainty::Sure || anatomy.stands(&rest),
+            Err(reason) => matches!(reason, NoAnatomy::FourLegs | NoAnatomy::ManyLimbs),
+        };
+        if is_settled {
+            return at_rest;
         }
+        let in_frames = [0, frame_count / 2]
+            .into_iter()
+            .filter(|&frame| frame < frame_count)
+            .map(|frame| motion.pose(frame).to_global(skeleton))
+            .filter_map(|pose| Some((Self::find(skeleton, &pose).ok()?, pose)))
+            .find(|(anatomy, pose)| at_rest.is_err() || anatomy.stands(pose));
+        in_frames.map_or(at_rest, |(anatomy, _)| Ok(anatomy))
     }
 
     /// The figure's directions in a pose of its skeleton; `None` where its hips or its trunk have no

@@ -139,7 +139,10 @@ fn arm_posture(arms: &LimbPair, up: Vec3, left: Vec3) -> ArmPosture {
     }
 }
 
-fn legs_and_arms(skeleton: &Skeleton, rest: &GlobalPose) -> Option<(LimbPair, LimbPair)> {
+pub(super) fn legs_and_arms(
+    skeleton: &Skeleton,
+    rest: &GlobalPose,
+) -> Option<(LimbPair, LimbPair)> {
     let mut depths: Vec<usize> = Vec::with_capacity(skeleton.joint_count());
     for parent in skeleton.parents() {
         depths.push(parent.map_or(0, |parent| depths[parent.index()] + 1));
@@ -198,6 +201,8 @@ fn limb_pair(
     let parting = skeleton.parent(left_start)?;
     let place = |joint: JointId| rest.positions[joint.index()];
     Some(LimbPair {
+        parting_joint: parting,
+        ends: [left, right],
         parting_depth: depths[parting.index()],
         parting: place(parting),
         left: place(left) - place(left_start),

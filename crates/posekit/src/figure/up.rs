@@ -4,7 +4,8 @@
 //! crawl is no climb. So the rest pose is asked first, and the motion only says how sure the answer is: a
 //! figure that stands along the same axis all the time confirms it, one that stands along another
 //! contradicts it, as a lying figure does, or one whose root joint turns the whole rest pose. Without
-//! a rest pose that stands, the motion alone gives a guess, and without limbs the height of the figure.
+//! a rest pose that stands, the motion alone gives a guess. Without pairs of arms and legs the height of the
+//! figure does, first at rest, then in motion.
 
 use std::fmt;
 use std::str::FromStr;
@@ -16,6 +17,7 @@ use super::{body_extent, frames_looked_at};
 use crate::motion::Motion;
 use crate::pose::{GlobalPose, forward_kinematics};
 use crate::rotation::Axis;
+use crate::skeleton::{JointId, Skeleton};
 
 /// A figure stands along an axis in a frame when its trunk, from feet to shoulders, is this close to it: the
 /// cosine of 37 degrees, which bowing walkers stay within.
@@ -200,6 +202,11 @@ pub fn guess_up(motion: &Motion) -> Option<UpGuess> {
         }
         _ => None,
     };
+    // Without arms the legs alone say where up is at rest.
+    let at_rest = at_rest.or_else(|| match limbs {
+        Some(_) => None,
+        None => legs_alone(skeleton),
+    });
     match (at_rest, in_motion) {
         (Some(up), Some(same)) if up == same => guess(up, UpEvidence::RestPoseAndMotion),
         (Some(up), None) if motion.frame_count() == 0 => guess(up, UpEvidence::RestPoseAndMotion),
@@ -207,8 +214,48 @@ pub fn guess_up(motion: &Motion) -> Option<UpGuess> {
         (Some(up), Some(other)) => guess(up, UpEvidence::RestPoseAgainstMotion(other)),
         (None, Some(up)) => guess(up, UpEvidence::Motion),
         (None, None) if limbs.is_some() => None,
-        (None, None) => guess(by_extent(motion)?, UpEvidence::Extent),
+        (None, None) => {
+            let (low, high) = GlobalPose::rest(skeleton).bounds();
+            let in_motion = body_extent(motion).and_then(taller_of_y_and_z);
+            match (taller_of_y_and_z(high - low), in_motion) {
+                (Some(up), Some(other)) if up != other => {
+                    guess(up, UpEvidence::RestPoseAgainstMotion(other))
+                }
+                (Some(up), _) | (None, Some(up)) => guess(up, UpEvidence::Extent),
+                (None, None) => None,
+            }
+        }
     }
+}
+
+/// How far a pair of free ends must be from where their limbs part, all of it along one axis, as a share of
+/// the limbs: hands of a T-pose are on both sides of it and say nothing.
+const STRAIGHT_SHARE: f32 = 0.8;
+
+/// The axis against which the longest pair of limbs that mirror each other hangs straight at rest, for a figure
+/// of which no arms were found.
+fn legs_alone(skeleton: &Skeleton) -> Option<UpAxis> {
+    let rest = GlobalPose::rest(skeleton);
+    let at = |joint: JointId| rest.positions[joint.index()];
+    let mut longest: Option<(f32, Vec3)> = None;
+    for pair in skeleton.symmetric_pairs() {
+        let is_free = |joint: JointId| skeleton.children(joint).is_empty();
+        if !is_free(pair.left) || !is_free(pair.right) {
+            continue;
+        }
+        let Some(chain) = skeleton.chain(pair.left, pair.right) else {
+            continue;
+        };
+        let ends = 0.5 * (at(pair.left) + at(pair.right));
+        let length = 0.5 * chain.rest_length(skeleton);
+        if longest.is_none_or(|(so_far, _)| length > so_far) {
+            longest = Some((length, at(chain.top()) - ends));
+        }
+    }
+    let (length, rise) = longest?;
+    UpAxis::ALL
+        .into_iter()
+        .find(|up| length > 0.0 && rise.dot(up.unit()) >= STRAIGHT_SHARE * length)
 }
 
 /// The axis along which the trunk stands in most frames.
@@ -220,7 +267,7 @@ fn upright_in_motion(motion: &Motion, legs: &LimbPair, arms: &LimbPair) -> Optio
     for frame in frames_looked_at(motion) {
         motion.pose_into(frame, &mut local);
         forward_kinematics(motion.skeleton(), &local, &mut global);
-        let at = |joint: crate::skeleton::JointId| global.positions[joint.index()];
+        let at = |joint: JointId| global.positions[joint.index()];
         let feet = 0.5 * (at(legs.ends[0]) + at(legs.ends[1]));
         let trunk = (at(arms.parting_joint) - feet).normalize_or_zero();
         frame_count += 1;
@@ -235,12 +282,8 @@ fn upright_in_motion(motion: &Motion, legs: &LimbPair, arms: &LimbPair) -> Optio
         .map(|(_, up)| up)
 }
 
-/// Of Y and Z the one along which the figure is clearly larger.
-fn by_extent(motion: &Motion) -> Option<UpAxis> {
-    let extent = body_extent(motion).unwrap_or_else(|| {
-        let (low, high) = GlobalPose::rest(motion.skeleton()).bounds();
-        high - low
-    });
+/// Of Y and Z the one along which a figure of this extent is clearly larger.
+fn taller_of_y_and_z(extent: Vec3) -> Option<UpAxis> {
     if extent.y > CLEARLY_TALLER * extent.z {
         Some(UpAxis::Y)
     } else if extent.z > CLEARLY_TALLER * extent.y {
@@ -284,6 +327,31 @@ mod tests {
         assert_eq!(guess.up, UpAxis::Y);
         assert_eq!(guess.evidence, UpEvidence::RestPoseAgainstMotion(UpAxis::Z));
         assert!(!guess.is_known());
+    }
+
+    /// A figure without arms: legs of 90 along -Y say that Y is up, however its trunk lies in the motion.
+    #[test]
+    fn legs_alone_say_where_up_is() {
+        use crate::skeleton::SkeletonBuilder;
+        let mut builder = SkeletonBuilder::new();
+        let hips = builder.joint("Hips", None, Vec3::ZERO);
+        let head = builder.joint("Head", Some(hips), Vec3::Y * 60.0);
+        builder.end_site("Head_end", head, Vec3::Y * 19.0);
+        for (side, x) in [("Left", 9.0), ("Right", -9.0)] {
+            let hip = builder.joint(format!("{side}UpLeg"), Some(hips), Vec3::X * x);
+            let foot = builder.joint(format!("{side}Foot"), Some(hip), Vec3::Y * -82.0);
+            builder.end_site(format!("{side}Foot_end"), foot, Vec3::new(0.0, -8.0, 14.0));
+        }
+        let skeleton = Arc::new(builder.build().expect("a skeleton"));
+        let mut crawl = Motion::at_rest(skeleton, 4, 0.1, [hips]);
+        for frame in 0..4 {
+            crawl.set_rotation(frame, hips, Quat::from_rotation_x(1.4));
+        }
+        let guess = guess_up(&crawl).expect("legs");
+        assert_eq!(
+            (guess.up, guess.evidence),
+            (UpAxis::Y, UpEvidence::RestPose)
+        );
     }
 
     #[test]

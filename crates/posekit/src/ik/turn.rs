@@ -182,7 +182,7 @@ impl Linkage {
                             .unwrap_or(across),
                         _ => across.cross(line).normalize_or_zero(),
                     };
-                    let axis = if way % 2 == 0 { axis } else { -axis };
+                    let axis = if way.is_multiple_of(2) { axis } else { -axis };
                     [axis, across.cross(axis).normalize_or_zero()]
                 };
                 has_moved |= axes.iter().any(|&axis| {

@@ -103,6 +103,7 @@ pub fn to_quaternion(
         first,
         |time, _| track.sample(time),
         |value| value,
+        MOST_TURN_RAD,
         config,
     )
 }
@@ -151,7 +152,7 @@ pub(super) fn euler_of_curve(
     let angles = |time, near| angles_near_deg(order, rotation(time), near);
     let first = angles(source.times_secs[0], near_deg);
     let back = |angles| quat_of_deg(order, angles);
-    let found = converted(source, first, angles, back, config)?;
+    let found = converted(source, first, angles, back, f64::INFINITY, config)?;
     let track = EulerTrack::new(order, found.track);
     Ok(Converted {
         track: track.expect("the order is complete"),
@@ -188,12 +189,17 @@ impl<V: KeyValue> Piece<V> {
     }
 }
 
+/// How far quaternions turn from key to key at most: at half a turn the last digits would choose the way.
+const MOST_TURN_RAD: f64 = 170.0 / 180.0 * core::f64::consts::PI;
+
 /// `value_at` gives the value at a time that goes on from one near there; `rotation_of` what it stands for.
+/// A piece turns by no more than `most_turn_rad` from end to end.
 fn converted<V: KeyValue>(
     source: &Source<'_>,
     first: V,
     value_at: impl Fn(f64, V) -> V,
     rotation_of: impl Fn(V) -> DQuat,
+    most_turn_rad: f64,
     config: &ConvertConfig,
 ) -> Result<Converted<Track<V>>, TrackError> {
     let mut pieces: Vec<Piece<V>> = Vec::new();
@@ -220,7 +226,9 @@ fn converted<V: KeyValue>(
                 && middle > span[0]
                 && middle < span[1]
                 && span[1] - span[0] >= 2.0 * config.least_secs;
-            if best.error_rad > config.tolerance_rad && is_divisible {
+            let turn_rad = angle_between(rotation_of(best.from.1), rotation_of(best.to.1));
+            let is_rough = best.error_rad > config.tolerance_rad || turn_rad > most_turn_rad;
+            if is_rough && is_divisible {
                 waiting.push(([middle, span[1]], halvings - 1));
                 waiting.push(([span[0], middle], halvings - 1));
                 continue;

@@ -6,7 +6,8 @@ use std::io::Write;
 use clap::{Args, ValueEnum};
 use posekit::check::{CheckConfig, FindingCode, Severity};
 use posekit_formats::bvh::{self, CheckEntry};
-use posekit_formats::report::{Import, WarningCode};
+use posekit_formats::report::{Import, Location, WarningCode};
+use posekit_formats::urdf;
 use serde_json::{Value, json};
 
 use crate::args::Global;

@@ -1,5 +1,6 @@
 //! The facts about a file, before anybody words them.
 
+use posekit::body::{Anatomy, NoAnatomy};
 use posekit::check::RelativePositions;
 use posekit::figure::{LengthUnit, RestPose, UpAxis, UpGuess, guess_unit, guess_up};
 use posekit::motion::{Channel, Motion, PositionPolicies};

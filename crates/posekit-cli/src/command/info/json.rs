@@ -1,5 +1,6 @@
 //! The facts, for programs.
 
+use posekit::body::{Certainty, Limb};
 use posekit_formats::report::{Severity, Warning};
 use serde_json::{Value, json};
 

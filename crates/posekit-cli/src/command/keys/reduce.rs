@@ -70,6 +70,7 @@ pub(super) fn run(args: &ReduceArgs, global: &Global) -> Result<(), Failure> {
     let loaded = load::load(input, global)?;
     let in_file = |failure: Failure| failure.in_file(&name);
     let motion = loaded.motion(args.positions.policies()).map_err(in_file)?;
+    drop(loaded);
     let config = ReduceConfig {
         angle_deg: args.angle,
         distance_heights: args.distance,

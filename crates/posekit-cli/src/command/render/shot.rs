@@ -131,7 +131,12 @@ pub(super) fn prepare(
         _ => None,
     };
     let (mut motion, mut warnings) = match &scene {
-        Some((path, scene)) => (scene_file::shot(path, scene)?.bake(None), Vec::new()),
+        Some((path, scene)) => {
+            let import = scene_file::shot(path, scene)?;
+            load::refuse_repairs(&name, &import.report, global)?;
+            let warnings = load::repair_lines(&name, &import.report.warnings);
+            (import.document.bake(None), warnings)
+        }
         None => motion_of(args, input, global)?,
     };
     let scene = scene.map(|(_, scene)| scene);

@@ -137,6 +137,7 @@ impl Builder {
         at: usize,
         keyword: Keyword,
     ) -> Result<(), ReadError> {
+        let name_at = scanner.pos;
         let name = scanner.take_name();
         self.note_place(scanner, at, keyword);
         if name.is_empty() {
@@ -144,16 +145,16 @@ impl Builder {
                 "a joint without a name, kept so".into()
             });
         }
-        self.note_name(scanner, at, name)?;
+        self.note_name(scanner, (at, name_at), name)?;
         self.push(scanner, at, name.to_vec(), None)
     }
 
     /// Notes what is odd about the name of the joint whose keyword is at `at`, and keeps it in mind;
-    /// refuses one that is too long.
+    /// refuses one that is too long or no text, at `name_at`.
     fn note_name(
         &mut self,
         scanner: &mut Scanner<'_>,
-        at: usize,
+        (at, name_at): (usize, usize),
         name: &[u8],
     ) -> Result<(), ReadError> {
         if std::str::from_utf8(name).is_err() {
@@ -161,10 +162,14 @@ impl Builder {
                 format!("the name {} is not UTF-8, its bytes are kept", quote(name))
             });
         }
+        if name.contains(&0) {
+            let found = "a name with a NUL byte in it";
+            return Err(scanner.error(ReadErrorKind::NotText, name_at, "text", found));
+        }
         if name.len() > MAX_NAME_BYTES {
             let expected = format!("a name of at most {MAX_NAME_BYTES} bytes");
             let found = format!("one of {} bytes", name.len());
-            return Err(scanner.error(ReadErrorKind::LimitExceeded, at, expected, found));
+            return Err(scanner.error(ReadErrorKind::LimitExceeded, name_at, expected, found));
         }
         if let Some(&first) = self.names.get(name) {
             let joint = self.joints.len();
@@ -214,7 +219,7 @@ impl Builder {
         let name = match written.end_name {
             EndName::Implied => implied_end_name(&self.joints[parent].name),
             EndName::Comment | EndName::Word => {
-                self.note_name(scanner, at, written.name)?;
+                self.note_name(scanner, (at, at), written.name)?;
                 written.name.to_vec()
             }
         };

@@ -320,7 +320,7 @@ impl Authored {
     }
 
     /// Adds the motion of a file, so that the scene may name it.
-    pub fn add_file(&mut self, name: String, motion: Arc<Motion>) {
+    pub fn add_file(&mut self, name: String, motion: FileMotion) {
         self.files.insert(name, motion);
     }
 

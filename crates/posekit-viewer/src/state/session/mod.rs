@@ -203,7 +203,7 @@ impl Session {
             return;
         };
         let old = &self.clips[index].clip;
-        if old.reading == reading || self.is_edited(id) || self.authoring.open.contains_key(&id) {
+        if old.reading == reading || self.is_edited(id) || self.authored_of(id).is_some() {
             return;
         }
         let Ok(clip) = old.read_as(reading) else {

@@ -56,7 +56,9 @@ pub fn key_on_curve<V: KeyValue>(track: &Track<V>, time_secs: f64) -> Keyframe<V
 }
 
 /// The track with a key put onto its curve, which moves as little as can be ([`key_on_curve`]): where handles
-/// are free in time, and on curves of numbers and vectors with slopes set by hand, not at all.
+/// are free in time, and on curves of numbers and vectors with slopes set by hand, not at all. The exception:
+/// where the two handles of a segment reach past each other in time, one of the parts may need a handle that
+/// reaches past its neighbour, which is shortened, and the curve moves a little.
 ///
 /// # Errors
 /// [`EditError::Track`] when the time is not finite.

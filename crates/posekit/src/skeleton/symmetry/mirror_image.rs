@@ -371,7 +371,7 @@ mod tests {
             // Few places, so that many joints are images, many coincide, and many nearly are and do.
             let grain = [0.01, 0.03, 0.3][seed as usize % 3];
             for _ in 0..number(60) {
-                let parent = joints[number(joints.len() as u32) as usize];
+                let parent = joints[number(u32::try_from(joints.len()).unwrap()) as usize];
                 let offset = [0; 3].map(|_| number(5) as f32 - 2.0);
                 let nudge = number(3) as f32 * grain;
                 let offset = Vec3::from_array(offset) + Vec3::splat(nudge);

@@ -1,6 +1,6 @@
 //! Figures as many programs lay them out: their joints' names, their proportions, their rest poses.
 //!
-//! Names and lengths are those of published skeletons (CMU 01_01, Mixamo, Bandai-Namco, LAFAN1, suits of
+//! Names and lengths are those of published skeletons (CMU `01_01`, Mixamo, Bandai-Namco, LAFAN1, suits of
 //! Rokoko, Xsens, Perception Neuron, SMPL's mean shape, the VRM humanoid) to a centimetre or so; the child
 //! has the proportions of a four-year-old, the ape long arms on high shoulders. Every figure is described
 //! as it stands with its arms out, Y up, facing +Z; `is_flat` then lays each bone along its parent's X at

@@ -74,7 +74,9 @@ fn landmarks_do_not_depend_on_the_pose() {
 
 #[test]
 fn names_that_say_nothing_are_no_hindrance() {
-    for convention in conventions() {
+    // The child's bones are cut in two: without names nothing tells a segment from a bone.
+    let whole_bones = |convention: &Convention| convention.label != "child";
+    for convention in conventions().into_iter().filter(whole_bones) {
         let motion = convention.motion();
         let count = std::cell::Cell::new(0);
         let nameless = convention.motion_named(|_| {

@@ -143,7 +143,7 @@ mod tests {
     fn plane(values: ValueView) -> Plane {
         let scene = Scene::new(SkeletonSource::File("sample:walk".to_owned()));
         let motion = posekit::sample::by_name("walk").expect("a sample");
-        let files = [("sample:walk".to_owned(), motion.into())].into();
+        let files = [("sample:walk".to_owned(), std::sync::Arc::new(motion).into())].into();
         let authored = Authored::new(scene, files).expect("it fits");
         let rect = Rect::from_min_size(pos2(100.0, 50.0), vec2(500.0, 200.0));
         Plane {

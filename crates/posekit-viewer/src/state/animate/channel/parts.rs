@@ -45,7 +45,7 @@ impl InParts for f64 {
         [self, 0.0, 0.0]
     }
 
-    fn in_parts(value: Self, change: impl Fn(usize, f64) -> f64) -> Self {
+    fn in_parts(value: Self, change: impl Fn(usize, Self) -> Self) -> Self {
         change(0, value)
     }
 

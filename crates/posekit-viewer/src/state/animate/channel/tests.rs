@@ -288,6 +288,12 @@ proptest! {
         let key = key % keys.len();
         let side = if is_incoming { Side::Incoming } else { Side::Outgoing };
         let Some(before) = channels.slopes(key) else { return Ok(()) };
+        // A handle of quaternions, a third of its segment long, holds less than half a turn.
+        let times = channels.times_secs();
+        let around = &times[key.saturating_sub(1)..times.len().min(key + 2)];
+        let longest_secs = around.windows(2).map(|span| span[1] - span[0]).fold(0.0, f64::max);
+        let fastest = before.concat().iter().map(|slope| slope.abs()).sum::<f64>() + slope.abs();
+        prop_assume!(fastest * longest_secs / 3.0 < 170.0);
         let kind = channels.tangent_kind(key);
         let edited = drag_handle(&channels, Dot { key, channel }, side, slope).expect("valid");
         let after_channels = Channels::of(edited.track, order, [0.0; 3]);

@@ -264,7 +264,7 @@ mod tests {
         let expected = glam::DQuat::from_rotation_z(180_f64.to_radians());
         assert!(angle_between(turn_at(&authored, lane, 7.0), expected) < 1e-6);
 
-        let (mut authored, lane) = spinning();
+        let (mut authored, _) = spinning();
         let image = mirrored(&authored, &keys).expect("it has another side");
         authored.set_tracks("Mirror", None, image.changes, image.selection);
         let other = authored

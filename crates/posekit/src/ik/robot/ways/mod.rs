@@ -16,9 +16,9 @@ mod closed_form;
 mod trig;
 
 use super::dexterity::{Dexterity, Task, jacobian};
-use super::random::Random;
 use super::{RobotConfig, RobotWorkspace, solve_robot};
 use crate::ik::IkTarget;
+use crate::ik::random::Random;
 use crate::mechanism::{Frame, Freedom, Mechanism, ValueRange};
 use crate::skeleton::JointId;
 use closed_form::{Arm, Axis, Kind};
