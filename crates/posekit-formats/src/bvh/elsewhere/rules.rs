@@ -205,12 +205,7 @@ pub const RULES: &[Rule] = &[
     rule(P::NoFrames, Three, Refused, "fails (no keyframes in track)"),
     rule(P::NoFrames, Blender, Refused, "fails"),
     rule(P::NoFrames, Pybvh, Refused, "refuses the file (ValueError)"),
-    rule(
-        P::NoFrames,
-        Bvhio,
-        Refused,
-        "does not read it",
-    ),
+    rule(P::NoFrames, Bvhio, Refused, "does not read it"),
     rule(
         P::NoFrames,
         Assimp,
