@@ -1,4 +1,5 @@
-//! Connections: each a task of its own, so that a slow one keeps nobody waiting.
+//! Connections: each a task of its own, so that a slow one keeps nobody waiting. Files are looked for and
+//! read, and folders listed, on other threads.
 
 use std::convert::Infallible;
 use std::io;
@@ -11,8 +12,7 @@ use hyper::server::conn::http1;
 use hyper::service::service_fn;
 use hyper::{Request, body::Incoming};
 use hyper_util::rt::{TokioIo, TokioTimer};
-use tokio::net::{TcpListener, TcpStream};
-use tokio::sync::Semaphore;
+use tokio::net::{TcpListener, TcpSocket};
 
 use crate::args::Global;
 use crate::console;
@@ -20,15 +20,20 @@ use crate::failure::Failure;
 
 use super::answer::answer;
 use super::gate::Gate;
+use super::lists::Lists;
+use super::policy::Policy;
+use super::seats::{Activity, Seats};
+use super::watched::Watched;
 
 /// A request's head is a few hundred bytes; more than this is refused.
 const MOST_HEAD_BYTES: usize = 16 * 1024;
 /// Who has not said what is wanted after this long is hung up on.
 const HEAD_TIME: Duration = Duration::from_secs(10);
-/// Who reads a file for longer than this is hung up on.
-const CONNECTION_TIME: Duration = Duration::from_secs(600);
-/// More connections than this wait until others end.
-const MOST_CONNECTIONS: usize = 256;
+/// This much is handed to the system ahead of who reads. It takes more when a third of it was taken, and
+/// one who reads more slowly than that in the time for a stall is hung up on: 3 kB a second.
+const SEND_BUFFER_BYTES: u32 = 1 << 18;
+/// Connections that the system holds until they are accepted.
+const BACKLOG: u32 = 1024;
 /// How long to wait when the system has no room for one more connection.
 const BREATH: Duration = Duration::from_millis(100);
 
@@ -39,8 +44,16 @@ pub(super) struct Site {
     pub(super) page: PathBuf,
     /// The folder of clips, canonical.
     pub(super) clips: PathBuf,
+    /// The list of the clips.
+    pub(super) lists: Arc<Lists>,
     /// Who is let in.
     pub(super) gate: Gate,
+    /// What browsers may do with the answers.
+    pub(super) policy: Policy,
+    /// More connections than this are not open at a time.
+    pub(super) most_connections: usize,
+    /// Who takes nothing of an answer for this long is hung up on.
+    pub(super) stall_time: Duration,
 }
 
 /// Serves until the process ends.
@@ -54,16 +67,32 @@ pub(super) fn serve(
         .build()
         .map_err(|error| Failure::new(format!("cannot start serving: {error}")))?;
     runtime.block_on(async {
-        let listener = TcpListener::bind(SocketAddr::new(address, port))
-            .await
+        let listener = listen(SocketAddr::new(address, port))
             .map_err(|error| cannot_listen(address, port, &error))?;
         let local = listener
             .local_addr()
             .map_err(|error| cannot_listen(address, port, &error))?;
         announce(&site, local, global)?;
+        // So that the first who asks does not wait for it.
+        let lists = Arc::clone(&site.lists);
+        tokio::spawn(async move { lists.current().await.map(|_| ()) });
         accept_all(&listener, Arc::new(site)).await;
         Ok(())
     })
+}
+
+fn listen(place: SocketAddr) -> io::Result<TcpListener> {
+    let socket = match place {
+        SocketAddr::V4(_) => TcpSocket::new_v4(),
+        SocketAddr::V6(_) => TcpSocket::new_v6(),
+    }?;
+    // As the standard library has it: a port is free again as soon as its server has ended.
+    #[cfg(unix)]
+    socket.set_reuseaddr(true)?;
+    // The connections have it from here.
+    socket.set_send_buffer_size(SEND_BUFFER_BYTES)?;
+    socket.bind(place)?;
+    socket.listen(BACKLOG)
 }
 
 fn cannot_listen(address: IpAddr, port: u16, error: &io::Error) -> Failure {
@@ -103,31 +132,33 @@ fn announce(site: &Site, local: SocketAddr, global: &Global) -> Result<(), Failu
 }
 
 async fn accept_all(listener: &TcpListener, site: Arc<Site>) {
-    let room = Arc::new(Semaphore::new(MOST_CONNECTIONS));
-    loop {
-        let Ok(place) = Arc::clone(&room).acquire_owned().await else {
-            return;
-        };
-        match listener.accept().await {
-            Ok((stream, _)) => {
-                let site = Arc::clone(&site);
-                tokio::spawn(async move {
-                    // A connection that breaks is its client's business.
-                    let _ = tokio::time::timeout(CONNECTION_TIME, talk(stream, site)).await;
-                    drop(place);
-                });
+    let seats = Seats::new(site.most_connections);
+    for id in 0.. {
+        let stream = loop {
+            match listener.accept().await {
+                Ok((stream, _)) => break stream,
+                Err(_no_room) => tokio::time::sleep(BREATH).await,
             }
-            Err(_no_room) => tokio::time::sleep(BREATH).await,
-        }
+        };
+        seats.make_room().await;
+        let site = Arc::clone(&site);
+        seats.seat(id, |activity| async move {
+            let watched = Watched::new(stream, Arc::clone(&activity), site.stall_time);
+            // A connection that breaks is its client's business.
+            let _ = talk(watched, activity, site).await;
+        });
     }
 }
 
-async fn talk(stream: TcpStream, site: Arc<Site>) -> hyper::Result<()> {
+async fn talk(stream: Watched, activity: Arc<Activity>, site: Arc<Site>) -> hyper::Result<()> {
     let service = service_fn(move |request: Request<Incoming>| {
         let site = Arc::clone(&site);
+        let answering = activity.answering();
         async move {
             let (head, _unread) = request.into_parts();
-            Ok::<_, Infallible>(answer(&site, &head))
+            let response = answer(&site, head).await;
+            drop(answering);
+            Ok::<_, Infallible>(response)
         }
     });
     http1::Builder::new()

@@ -2,20 +2,33 @@
 
 mod answer;
 mod body;
-mod clips;
+mod files;
 mod gate;
+mod list;
 mod listen;
+mod lists;
+mod policy;
+mod seats;
+mod validity;
+mod watched;
 
 use std::net::{IpAddr, Ipv4Addr};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::Mutex;
+use std::time::Duration;
 
 use clap::Args;
 
 use crate::args::Global;
+use crate::console;
 use crate::failure::Failure;
 use crate::output;
 use gate::Gate;
+use list::{Extent, List};
 use listen::Site;
+use lists::Lists;
+use policy::{Origin, Policy};
 
 /// The viewer as a web page, with a folder of clips, for a machine without a desktop
 ///
@@ -42,6 +55,38 @@ pub(crate) struct ServeArgs {
     /// The folder of the built page [default: target/page, or page beside this program]
     #[arg(long, value_name = "FOLDER")]
     page: Option<PathBuf>,
+    /// Let pages of this origin show the viewer in a frame; may be given several times
+    #[arg(long, value_name = "ORIGIN")]
+    embed: Vec<Origin>,
+    #[command(flatten)]
+    limits: Limits,
+}
+
+/// What the server bears. Nobody needs to change these; the tests do.
+#[derive(Debug, Args)]
+struct Limits {
+    /// Clips beyond this many are not listed
+    #[arg(long, hide = true, value_name = "N", default_value_t = 20_000)]
+    most_clips: usize,
+    /// The search for clips ends after this many names
+    #[arg(long, hide = true, value_name = "N", default_value_t = 1_000_000)]
+    most_names: usize,
+    /// A list of clips is good for this long
+    #[arg(long, hide = true, value_name = "SECS", default_value = "1", value_parser = seconds)]
+    list_time: Duration,
+    /// More connections than this are not open at a time
+    #[arg(long, hide = true, value_name = "N", default_value_t = 256)]
+    most_connections: usize,
+    /// Who takes nothing of an answer for this long is hung up on
+    #[arg(long, hide = true, value_name = "SECS", default_value = "30", value_parser = seconds)]
+    stall_time: Duration,
+}
+
+fn seconds(text: &str) -> Result<Duration, String> {
+    let secs: f64 = text
+        .parse()
+        .map_err(|_| "not a number of seconds".to_owned())?;
+    Duration::try_from_secs_f64(secs).map_err(|error| error.to_string())
 }
 
 const EXAMPLES: &str = "\
@@ -49,7 +94,9 @@ Examples:
   posekit serve takes/                       this machine only
   ssh -L 8631:127.0.0.1:8631 studio          ... and this, on yours, brings it to your browser
   posekit serve takes/ --host 0.0.0.0        everyone who knows the address with its token
-  posekit serve --page /srv/posekit --port 0";
+  posekit serve --page /srv/posekit --port 0
+  posekit serve takes/ --embed https://lectures.example
+                                             ... whose pages may show the viewer in a frame";
 
 /// Runs the command until it is interrupted.
 pub(crate) fn run(args: &ServeArgs, global: &Global) -> Result<(), Failure> {
@@ -71,7 +118,41 @@ pub(crate) fn run(args: &ServeArgs, global: &Global) -> Result<(), Failure> {
     let address = args.host.unwrap_or(IpAddr::V4(Ipv4Addr::LOCALHOST));
     // An interrupt is how a server is ended: no failure.
     output::interrupt_is_no_failure();
-    listen::serve(Site { page, clips, gate }, (address, args.port), global)
+    let site = Site {
+        page,
+        lists: lists(clips.clone(), args, global.quiet),
+        clips,
+        gate,
+        policy: Policy::new(&args.embed),
+        most_connections: args.limits.most_connections,
+        stall_time: args.limits.stall_time,
+    };
+    listen::serve(site, (address, args.port), global)
+}
+
+/// The lists of the folder. When one is cut in another way than the one before, that is said.
+fn lists(clips: PathBuf, args: &ServeArgs, quiet: bool) -> Arc<Lists> {
+    let extent = Extent {
+        most_clips: args.limits.most_clips,
+        most_names: args.limits.most_names,
+    };
+    let said = Mutex::new(None);
+    Lists::new(args.limits.list_time, move || {
+        let list = List::of(&clips, extent).write();
+        let mut said = said
+            .lock()
+            .unwrap_or_else(std::sync::PoisonError::into_inner);
+        if *said != list.shortage {
+            said.clone_from(&list.shortage);
+            if let Some(shortage) = said.as_ref().filter(|_| !quiet) {
+                console::warning(&format!(
+                    "{}: {shortage}; serve a folder further down for the others",
+                    clips.display()
+                ));
+            }
+        }
+        list
+    })
 }
 
 fn real_folder(folder: &Path) -> Result<PathBuf, Failure> {

@@ -1,0 +1,102 @@
+// Starts the viewer in the page, and says how far that is. A file of its own, so that a host may forbid
+// scripts that stand in pages.
+
+// The build task puts the size of the module, unpacked, and a mark of this build here.
+const MODULE = { file: "posekit_viewer_bg.wasm?v=__VERSION__", bytes: Number("__MODULE_BYTES__") };
+const cover = document.getElementById("cover");
+const bar = document.getElementById("bar");
+const message = document.getElementById("message");
+
+class Unfit extends Error {}
+
+/// Whether the browser can draw at all.
+async function check() {
+  const canvas = document.createElement("canvas");
+  if (canvas.getContext("webgl2")) return;
+  const adapter = await navigator.gpu?.requestAdapter().catch(() => null);
+  if (!adapter) {
+    throw new Unfit(
+      "This browser offers neither WebGPU nor WebGL2, with which the figure is drawn.\n" +
+      "A current Chromium, Firefox or Safari has one of them, unless graphics acceleration is " +
+      "switched off in its settings. The desktop program needs neither.");
+  }
+}
+
+/// Fetches the module, telling how far it is. It is compiled as it comes.
+async function fetchModule(signal) {
+  const response = await fetch(MODULE.file, { signal });
+  if (!response.ok) throw new Error(`${MODULE.file}: the server answered ${response.status}`);
+  let done = 0;
+  const counted = response.body.pipeThrough(new TransformStream({
+    transform(piece, onward) {
+      done += piece.byteLength;
+      const share = Math.min(done / MODULE.bytes, 1);
+      bar.firstElementChild.style.width = `${100 * share}%`;
+      bar.setAttribute("aria-valuenow", Math.round(100 * share));
+      message.textContent = `${(done / 1e6).toFixed(1)} of ${(MODULE.bytes / 1e6).toFixed(1)} MB`;
+      onward.enqueue(piece);
+    },
+  }));
+  return new Response(counted, { headers: { "content-type": "application/wasm" } });
+}
+
+function tell(text) {
+  bar.hidden = true;
+  message.textContent = text;
+  cover.hidden = false;
+}
+
+// Keys that are the viewer's, though a browser has a use for them too.
+addEventListener("keydown", (event) => {
+  const typing = event.target instanceof HTMLInputElement;
+  const held = event.ctrlKey || event.metaKey;
+  if (held ? "e137".includes(event.key.toLowerCase()) : !typing && "/'".includes(event.key)) {
+    event.preventDefault();
+  }
+});
+
+// What goes wrong later stops the viewer for good; it keeps no file that could be lost.
+addEventListener("error", (event) => {
+  if (!(event.error instanceof WebAssembly.RuntimeError)) return;
+  tell("The viewer has stopped because of an error in it. Your files are untouched.");
+  const again = document.createElement("button");
+  again.textContent = "Start it again";
+  again.onclick = () => location.reload();
+  cover.append(again);
+});
+
+/// The clips that the server offers.
+async function fetchList() {
+  const response = await fetch("clips.json");
+  return response.ok ? await response.json() : null;
+}
+
+/// Nothing, after a while.
+const nothingAfter = (ms) => new Promise((done) => setTimeout(done, ms, null));
+
+const fetching = new AbortController();
+try {
+  // All at once: none of them waits for another.
+  const module = fetchModule(fetching.signal);
+  module.catch(() => {});
+  const list = fetchList().catch(() => null);
+  const viewer = import("./posekit_viewer.js?v=__VERSION__");
+  await check();
+  const { default: init, start } = await viewer;
+  await init({ module_or_path: module });
+  message.textContent = "Starting\u2026";
+  // The list is small and was asked for together with the module: a server that has not sent it by
+  // now has a few seconds more.
+  const clips = await Promise.race([list, nothingAfter(5000)]);
+  await start(document.getElementById("view"), clips);
+  cover.hidden = true;
+  document.getElementById("view").focus();
+} catch (error) {
+  fetching.abort();
+  if (error instanceof Unfit) {
+    tell(error.message);
+  } else {
+    console.error(error);
+    tell(`The viewer could not be started: ${error?.message ?? error}`);
+  }
+}
