@@ -30,6 +30,8 @@ export class Desk {
     page.setDefaultTimeout(PATIENCE_MS);
     const desk = new Desk(browser, running, page);
     page.on("console", (line) => desk.listen(line));
+    // Requests that were begun and given up show red in a browser's tools.
+    page.on("requestfailed", (request) => desk.complaints.push(`${request.failure()?.errorText}: ${request.url()}`));
     page.on("pageerror", (error) => desk.complaints.push(String(error?.stack ?? error)));
     await page.setViewport(window);
     if (dark) await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: "dark" }]);
@@ -208,6 +210,24 @@ export class Desk {
       if (Number((await this.state()).notices) === 0) await again();
       return test(await picture(this.page, place));
     });
+  }
+
+  /** The middle of a part of the window that the page says the place of, moved by some of its heights. */
+  async middleOf(name, heights = 0) {
+    const [left, top, right, bottom] = (await this.state())[name].split(" ").map(Number);
+    return [(left + right) / 2, (top + bottom) / 2 + heights * (bottom - top)];
+  }
+
+  /** Has the browser save into a folder. What comes back says how many files arrived whole. */
+  async saveInto(folder) {
+    const session = await this.page.createCDPSession();
+    let complete = 0;
+    session.on("Browser.downloadProgress", ({ state }) => {
+      if (state === "completed") complete += 1;
+    });
+    const behavior = { behavior: "allow", downloadPath: folder, eventsEnabled: true };
+    await session.send("Browser.setDownloadBehavior", behavior);
+    return () => complete;
   }
 
   /** Drops files on the view. */

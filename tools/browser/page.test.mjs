@@ -5,6 +5,7 @@ import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { mkdtempSync, rmSync } from "node:fs";
+import { createServer } from "node:http";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, describe, test } from "node:test";
@@ -28,6 +29,9 @@ const OFF = 3;
 
 /** Where the camera is when it looks from the front: degrees about the figure and above the horizon. */
 const FROM_THE_FRONT = "0 3";
+
+/** Where the buttons of listed files are, and the third of them when another clip is open. */
+const LISTED = { download: 232, text: 206, third: 343 };
 
 /** The last clip of the server's folder, when another one of it is open. */
 const LAST_CLIP = [130, 289];
@@ -182,16 +186,10 @@ test("what is saved arrives in the downloads", { skip: !chromium }, async () => 
   const desk = await Desk.open(chromium, `${site.address}?url=clips/wave.bvh`);
   const folder = mkdtempSync(join(tmpdir(), "posekit-downloads-"));
   try {
-    const session = await desk.page.createCDPSession();
-    const behavior = { behavior: "allow", downloadPath: folder, eventsEnabled: true };
-    let complete = 0;
-    session.on("Browser.downloadProgress", ({ state }) => {
-      if (state === "completed") complete += 1;
-    });
-    await session.send("Browser.setDownloadBehavior", behavior);
+    const complete = await desk.saveInto(folder);
     const arrived = async (count, end) => {
       await desk.becomes({ saved: count });
-      await desk.until(`${count} files in the downloads`, () => complete === count);
+      await desk.until(`${count} files in the downloads`, () => complete() === count);
       const name = readdirSync(folder).find((name) => name.endsWith(end));
       assert.ok(name, `no file ${end} among ${readdirSync(folder)}`);
       return readFileSync(join(folder, name));
@@ -226,18 +224,90 @@ test("what is saved arrives in the downloads", { skip: !chromium }, async () => 
   }
 });
 
+test("a listed file is saved as it is, and its text shown beside the figure", { skip: !chromium }, async () => {
+  const own = await serve();
+  const folder = mkdtempSync(join(tmpdir(), "posekit-listed-"));
+  // A name that needs care in addresses, headers and pages, and a file that nobody would write back as it is.
+  const name = `zz caf\u00e9 "1" & 100% #2.bvh`;
+  const bytes = Buffer.from(readFileSync(join(own.folder, "wave.bvh"), "latin1").replace("MOTION", "# by hand\nMOTION").replaceAll("\n", "\r\n"), "latin1");
+  writeFileSync(join(own.folder, name), bytes);
+  let desk;
+  try {
+    let list;
+    do {
+      list = await (await fetch(`${own.address}clips.json`)).json();
+    } while (!list.clips.some((clip) => clip.name === name));
+    desk = await Desk.open(chromium, `${own.address}?url=clips/wave.bvh`);
+    const complete = await desk.saveInto(folder);
+    await desk.pauseAtStart();
+    await desk.page.mouse.click(LISTED.download, LISTED.third);
+    await desk.until("the file in the downloads", () => complete() === 1);
+    const saved = readdirSync(folder);
+    assert.equal(saved.length, 1);
+    // Chromium writes no quotes into names of files.
+    assert.equal(saved[0].replaceAll("_", '"'), name);
+    assert.deepEqual(readFileSync(join(folder, saved[0])), bytes, "every byte");
+
+    await desk.page.mouse.move(LISTED.download - 60, LISTED.third);
+    await desk.settled(() => desk.whole());
+    await desk.show("listed");
+    await desk.page.mouse.click(LISTED.text, LISTED.third);
+    await desk.becomes({ clip: name, working: false });
+    const lines = bytes.toString("latin1").split("\r\n");
+    const first = lines.findIndex((line) => line.startsWith("Frame Time")) + 2;
+    const atLine = (line) => ({ text: `${line} of ${lines.length}` });
+    await desk.pauseAtStart();
+    await desk.becomes(atLine(first));
+    await desk.page.mouse.click(...(await desk.middleOf("textRowPlace", 2)));
+    await desk.becomes({ frame: 2, ...atLine(first + 2) });
+    await desk.press("Shift+j");
+    await desk.settled(() => desk.whole());
+    await desk.show("text");
+    await desk.press("Space");
+    await desk.becomes({ playing: true });
+    await desk.until("a row further down", async () => Number((await desk.state()).text.split(" ")[0]) > first + 10);
+    await desk.show("text-playing");
+    assert.deepEqual(desk.complaints, []);
+  } finally {
+    await desk?.close();
+    own.stop();
+    rmSync(folder, { recursive: true, force: true });
+  }
+});
+
+test("only pages that were named show the viewer in a frame", { skip: !chromium }, async () => {
+  const host = createServer((request, response) => {
+    response.setHeader("content-type", "text/html");
+    response.end(`<!doctype html><iframe src="${request.url.slice(1)}" width="1000" height="600"></iframe>`);
+  });
+  await new Promise((done) => host.listen(0, "127.0.0.1", done));
+  const origin = `http://127.0.0.1:${host.address().port}`;
+  const own = await serve(["--embed", origin]);
+  let desk;
+  try {
+    desk = await Desk.open(chromium, `${origin}/${own.address}`);
+    const playing = async () => {
+      const frame = desk.page.frames().find((frame) => frame.url() === own.address);
+      return frame?.$eval("#view", (canvas) => canvas.dataset.playing === "true").catch(() => false);
+    };
+    await desk.until("the viewer in the frame", playing);
+    await desk.show("framed");
+    assert.deepEqual(desk.complaints, []);
+    await desk.goto(`${origin}/${site.address}`);
+    await desk.until("the refusal", () => desk.complaints.some((line) => /frame-ancestors|ERR_BLOCKED_BY_RESPONSE/.test(line)));
+  } finally {
+    await desk?.close();
+    own.stop();
+    host.close();
+  }
+});
+
 test("a scene is dropped, animated and saved, and the labs are there", { skip: !chromium }, async () => {
   const desk = await Desk.open(chromium, site.address);
   const folder = mkdtempSync(join(tmpdir(), "posekit-scene-"));
   try {
-    const session = await desk.page.createCDPSession();
     const downloads = join(folder, "downloads");
-    const behavior = { behavior: "allow", downloadPath: downloads, eventsEnabled: true };
-    let complete = 0;
-    session.on("Browser.downloadProgress", ({ state }) => {
-      if (state === "completed") complete += 1;
-    });
-    await session.send("Browser.setDownloadBehavior", behavior);
+    const complete = await desk.saveInto(downloads);
     const name = "shot.posekit.toml";
     const scene = join(folder, name);
     execFileSync(POSEKIT, ["keys", "reduce", "sample:walk", "-o", scene, "--quiet"]);
@@ -250,7 +320,7 @@ test("a scene is dropped, animated and saved, and the labs are there", { skip: !
     await desk.show("animate");
     await desk.press("Control+s");
     await desk.becomes({ saved: 1 });
-    await desk.until("the scene in the downloads", () => complete === 1);
+    await desk.until("the scene in the downloads", () => complete() === 1);
     assert.deepEqual(readFileSync(join(downloads, name)), readFileSync(scene), "what was read is what is saved");
     for (const [key, mode] of [["Shift+b", "Interpolation lab"], ["b", "Arm lab"], ["q", "View"]]) {
       await desk.press(key);

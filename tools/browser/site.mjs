@@ -22,7 +22,7 @@ function newest(paths) {
 }
 
 /** Starts a server over a folder of clips: `{ address, folder, stop }`. */
-export async function serve() {
+export async function serve(extra = []) {
   if (!existsSync(join(PAGE, "index.html"))) throw new Error(`${PAGE}: no page there: cargo xtask web`);
   const base = mkdtempSync(join(tmpdir(), "posekit-page-"));
   const folder = join(base, "takes");
@@ -31,7 +31,7 @@ export async function serve() {
   make("walk", "a walk.bvh");
   make("run", "more/run.bvh");
   make("wave", "wave.bvh");
-  const child = spawn(POSEKIT, ["serve", folder, "--page", PAGE, "--port", "0", "--quiet"], { stdio: ["ignore", "pipe", "inherit"] });
+  const child = spawn(POSEKIT, ["serve", folder, "--page", PAGE, "--port", "0", "--quiet", ...extra], { stdio: ["ignore", "pipe", "inherit"] });
   const address = await firstLine(child);
   const stop = () => {
     child.kill("SIGINT");

@@ -50,6 +50,10 @@ pub enum Icon {
     Warning,
     /// An arrow upwards out of a tray.
     Export,
+    /// An arrow downwards into a tray.
+    Download,
+    /// Lines of text.
+    Text,
     /// Three sliders.
     Sliders,
     /// A magnifying glass.
@@ -257,6 +261,16 @@ pub fn draw(painter: &Painter, icon: Icon, rect: Rect, color: Color32) {
             pen.line(&[(0.08, 0.62), (0.08, 0.92), (0.92, 0.92), (0.92, 0.62)]);
             pen.line(&[(0.50, 0.70), (0.50, 0.08)]);
             pen.line(&[(0.26, 0.30), (0.50, 0.06), (0.74, 0.30)]);
+        }
+        Icon::Download => {
+            pen.line(&[(0.08, 0.62), (0.08, 0.92), (0.92, 0.92), (0.92, 0.62)]);
+            pen.line(&[(0.50, 0.06), (0.50, 0.68)]);
+            pen.line(&[(0.26, 0.46), (0.50, 0.70), (0.74, 0.46)]);
+        }
+        Icon::Text => {
+            for (y, end) in [(0.14, 0.94), (0.38, 0.70), (0.62, 0.94), (0.86, 0.52)] {
+                pen.line(&[(0.06, y), (end, y)]);
+            }
         }
         Icon::Sliders => {
             for (y, x) in [(0.18, 0.66), (0.50, 0.32), (0.82, 0.56)] {

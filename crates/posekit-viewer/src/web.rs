@@ -3,7 +3,7 @@
 //! Files come by drop, by dialog, or from the page's own address: `?url=clips/walk.bvh` opens a
 //! file of the same origin. Nothing leaves the page: files are read in the browser.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use js_sys::Promise;
 use wasm_bindgen::prelude::*;
@@ -11,7 +11,7 @@ use wasm_bindgen_futures::{JsFuture, spawn_local};
 use web_sys::{FileList, HtmlAnchorElement, HtmlCanvasElement, HtmlInputElement, Window};
 
 use crate::app::{Status, Viewer, ViewerOptions};
-use crate::load::{Chosen, Event, Input, Outbox, listing_of};
+use crate::load::{Chosen, Event, Input, Outbox, listing_of, name_at};
 use crate::state::display::Look;
 use crate::state::settings::{Settings, WindowLayout};
 use crate::work::files::Parcel;
@@ -195,6 +195,32 @@ pub fn hand_over(outbox: &Outbox, parcel: &Parcel) {
         },
     };
     outbox.send(event);
+}
+
+/// Has the browser save a file of the page's own server, as it is.
+pub(crate) fn download_address(outbox: &Outbox, address: &Path) {
+    let name = name_at(address);
+    if follow_to_save(&address.to_string_lossy(), &name).is_err() {
+        let message = format!("{name} was not saved");
+        outbox.send(Event::Failed { message });
+    }
+}
+
+fn follow_to_save(address: &str, name: &str) -> Result<(), JsValue> {
+    let window = web_sys::window().ok_or(JsValue::NULL)?;
+    let location = window.location();
+    let whole = web_sys::Url::new_with_base(address, &location.href()?)?;
+    // A browser would show another's file instead of saving it.
+    if whole.origin() != location.origin()? {
+        return Err(JsValue::NULL);
+    }
+    whole.search_params().set("download", "");
+    let document = window.document().ok_or(JsValue::NULL)?;
+    let anchor: HtmlAnchorElement = document.create_element("a")?.dyn_into()?;
+    anchor.set_href(&whole.href());
+    anchor.set_download(name);
+    anchor.click();
+    Ok(())
 }
 
 fn download(parcel: &Parcel) -> Result<(), JsValue> {

@@ -41,6 +41,7 @@ impl Viewer {
             Command::ToggleLeft => self.layout.left = !self.layout.left,
             Command::ToggleRight => self.layout.right = !self.layout.right,
             Command::ToggleCurves => self.layout.curves = !self.layout.curves,
+            Command::ToggleText => self.layout.text = !self.layout.text,
             Command::ToggleHelp => self.help_open = !self.help_open,
             Command::Open => self.ask_for_files(),
             Command::OpenFolder => self.ask_for_folder(),
@@ -65,6 +66,21 @@ impl Viewer {
                 } else {
                     self.open_inputs(vec![input]);
                 }
+            }
+            Request::ShowText(id) => {
+                self.session.activate(id);
+                self.layout.text = true;
+            }
+            Request::ShowTextOf(path) => {
+                self.open_inputs(vec![Input::Path(path)]);
+                self.layout.text = true;
+            }
+            // In a window it is a file of this machine already.
+            #[cfg(not(target_arch = "wasm32"))]
+            Request::Download(_) => {}
+            #[cfg(target_arch = "wasm32")]
+            Request::Download(address) => {
+                crate::web::download_address(self.loader.outbox(), &address)
             }
             Request::CloseFolder => {
                 self.loader.forget_folder();

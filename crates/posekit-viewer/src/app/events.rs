@@ -74,6 +74,7 @@ impl Viewer {
                 Event::Chosen(chosen) => self.take_chosen(ctx, chosen),
                 Event::Summary(summary) => self.take_summary(ctx, *summary),
                 Event::FolderDone => {}
+                Event::Text(text) => self.text.take(text),
             }
         }
     }
@@ -208,10 +209,12 @@ impl Viewer {
 
     /// Lists a server's clips in the library.
     pub(super) fn take_listing(&mut self, listing: Listing) {
-        let paths = listing.clips.iter().map(|(path, _)| path.clone()).collect();
-        self.library
-            .list_named(listing.folder.into(), listing.clips);
-        self.loader.look_at(paths);
+        let files = listing.clips.iter().map(|(file, _)| file.clone()).collect();
+        let named = listing.clips.into_iter();
+        let named = named.map(|(file, name)| (file.path, name)).collect();
+        self.library.list_named(listing.folder.into(), named);
+        self.library.shortage = listing.shortage;
+        self.loader.look_at(files);
     }
 
     /// Lists a folder's clips in the library.
@@ -226,13 +229,9 @@ impl Viewer {
                 }
                 Ok(paths) => {
                     self.library.list(folder, paths);
-                    let paths = self
-                        .library
-                        .entries
-                        .iter()
-                        .map(|entry| entry.path.clone())
-                        .collect();
-                    self.loader.look_at(paths);
+                    let entries = self.library.entries.iter();
+                    let files = entries.map(|entry| entry.path.clone().into()).collect();
+                    self.loader.look_at(files);
                 }
                 Err(error) => {
                     let text = format!("{}: {error}", folder.display());

@@ -6,12 +6,16 @@ use super::Viewer;
 use crate::command::{self, Command, Place};
 use crate::panels::inspector::Checking;
 use crate::panels::{Asked, curves, export, help, inspector, joints, library, notices, row};
-use crate::panels::{top_bar, transport, view};
+use crate::panels::{text, top_bar, transport, view};
 use crate::state::mode::Mode;
 use crate::theme::Palette;
 
 /// Under this width the inspector does not open by itself beside the other panels.
 const NARROW: f32 = 900.0;
+
+/// Beside a text the figure has at least this width, and the text that one.
+const VIEW_LEAST: f32 = 240.0;
+const TEXT_LEAST: f32 = 240.0;
 
 /// The joint tree is never lower than this.
 const JOINTS_LEAST: f32 = 230.0;
@@ -94,6 +98,15 @@ impl Viewer {
                     curves::show(ui, &mut self.session, &mut self.curves)
                 });
         }
+        self.places.text = text::TextPlaces::NONE;
+        if self.layout.text && is_narrow {
+            Panel::bottom("text below")
+                .frame(panel.inner_margin(Margin::symmetric(8, 6)))
+                .resizable(true)
+                .default_size(220.0)
+                .size_range(120.0..=480.0)
+                .show(ui, |ui| self.show_text(ui, asked));
+        }
         if self.layout.left {
             Panel::left("left")
                 .frame(panel.inner_margin(Margin::symmetric(8, 6)))
@@ -117,12 +130,29 @@ impl Viewer {
                     inspector::show(ui, &mut self.session, checking, asked);
                 });
         }
+        if self.layout.text && !is_narrow {
+            let most = (ui.available_width() - VIEW_LEAST).max(TEXT_LEAST);
+            Panel::right("text")
+                .frame(panel.inner_margin(Margin::symmetric(8, 6)))
+                .resizable(true)
+                .default_size(420.0)
+                .size_range(TEXT_LEAST..=most)
+                .show(ui, |ui| self.show_text(ui, asked));
+        }
         CentralPanel::no_frame().show(ui, |ui| {
             let rect = ui.available_rect_before_wrap();
             self.places.view = rect;
             view::show(ui, &mut self.session, &mut self.painter, asked);
             self.show_over_view(ui, rect, asked);
         });
+    }
+
+    /// Shows the text of the active clip's file, which is made ready when it is not.
+    fn show_text(&mut self, ui: &mut Ui, asked: &mut Asked) {
+        if let Some(bytes) = self.text.wants(&self.session) {
+            self.loader.lay_out(bytes);
+        }
+        self.places.text = text::show(ui, &mut self.session, &mut self.text, asked);
     }
 
     fn show_left(&mut self, ui: &mut Ui, asked: &mut Asked) {

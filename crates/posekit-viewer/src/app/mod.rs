@@ -27,6 +27,7 @@ use crate::panels::interpolation::InterpolationPanel;
 use crate::panels::joints::JointTree;
 use crate::panels::library::Preview;
 use crate::panels::pose_library::PosePanel;
+use crate::panels::text::TextPanel;
 use crate::panels::timeline::Timeline;
 
 use crate::picture::painter::Painter;
@@ -91,6 +92,7 @@ pub struct Viewer {
     to_check: BTreeSet<ClipId>,
     tree: JointTree,
     curves: CurvePanel,
+    text: TextPanel,
     timeline: Timeline,
     poses: PoseLibrary,
     pose_panel: PosePanel,
@@ -156,6 +158,7 @@ impl Viewer {
             to_check: BTreeSet::new(),
             tree: JointTree::default(),
             curves: CurvePanel::default(),
+            text: TextPanel::default(),
             timeline: Timeline::default(),
             poses: PoseLibrary::default(),
             pose_panel: PosePanel::default(),
@@ -305,6 +308,7 @@ impl Viewer {
             || !self.checking.is_empty()
             || self.loader.is_looking()
             || self.timeline.is_waiting()
+            || self.text.is_waiting()
     }
 
     /// Whether the window shows what is now, nothing being drawn and nothing asked for since.

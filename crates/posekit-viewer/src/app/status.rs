@@ -7,6 +7,7 @@ use egui::Rect;
 
 use super::Viewer;
 use crate::panels::export::ExportWindow;
+use crate::panels::text::TextPlaces;
 use crate::state::notices::NoticeKind;
 
 /// Where parts of the window are that a pointer may be sent to, in points.
@@ -16,6 +17,8 @@ pub(super) struct Places {
     pub(super) view: Rect,
     /// The part of the time line on which frames are: its ends are the first frame and the last.
     pub(super) time_line: Rect,
+    /// The text.
+    pub(super) text: TextPlaces,
 }
 
 impl Default for Places {
@@ -23,6 +26,7 @@ impl Default for Places {
         Self {
             view: Rect::ZERO,
             time_line: Rect::ZERO,
+            text: TextPlaces::NONE,
         }
     }
 }
@@ -77,6 +81,9 @@ impl Viewer {
             ("notices", self.notices.shown().len().to_string()),
             ("view-place", place(self.places.view)),
             ("time-line-place", place(self.places.time_line)),
+            ("text", self.text_text()),
+            ("text-place", place(self.places.text.lines)),
+            ("text-row-place", place(self.places.text.row)),
             ("pictures", self.picture_count.to_string()),
             ("drawn", self.is_drawn().to_string()),
         ])
@@ -88,6 +95,13 @@ impl Viewer {
         let about = orbit.yaw_rad - self.session.stage().facing_yaw_rad();
         let about = about.to_degrees().rem_euclid(360.0).round() % 360.0;
         format!("{about:.0} {:.0}", orbit.pitch_rad.to_degrees())
+    }
+
+    fn text_text(&self) -> String {
+        if !self.layout.text {
+            return "closed".to_owned();
+        }
+        self.text.status(&self.session)
     }
 
     fn export_text(&self) -> String {
@@ -103,6 +117,9 @@ impl Viewer {
 }
 
 fn place_text(rect: Rect) -> String {
+    if rect.is_negative() {
+        return String::new();
+    }
     let Rect { min, max } = rect;
     format!("{:.0} {:.0} {:.0} {:.0}", min.x, min.y, max.x, max.y)
 }

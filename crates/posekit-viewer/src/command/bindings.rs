@@ -359,6 +359,13 @@ pub const BINDINGS: &[Binding] = &[
     ),
     bind(Command::ToggleCurves, NONE, Key::K, Group::Window, "Curves"),
     bind(
+        Command::ToggleText,
+        SHIFT,
+        Key::K,
+        Group::Window,
+        "The file's text",
+    ),
+    bind(
         Command::ToggleLook,
         NONE,
         Key::D,

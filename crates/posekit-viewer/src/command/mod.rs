@@ -101,6 +101,8 @@ pub enum Command {
     ToggleRight,
     /// The curves.
     ToggleCurves,
+    /// The text of the file.
+    ToggleText,
     /// Light or dark.
     ToggleLook,
     /// Ask for a file.

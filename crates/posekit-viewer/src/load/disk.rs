@@ -1,11 +1,11 @@
 //! The files of this machine.
 
 use std::io::Read as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::job::{self, Opened, Reading, SMALL_BYTES, Stop};
 use super::scene::{among, is_scene, read_scene};
-use super::{Event, Input, Outbox, Progress, Summary, SummaryNumbers};
+use super::{Event, Input, Listed, Outbox, Progress, Summary, SummaryNumbers};
 use crate::state::clip::Source;
 
 /// How much of a file is read at once: little enough to be stopped between.
@@ -32,7 +32,7 @@ fn read_input(reading: &Reading, input: &Input) -> Result<Opened, Stop> {
             if is_scene(&name) {
                 return open_scene(&name, Some(path), &bytes, file_bytes);
             }
-            reading.open(&name, Source::File(path.clone()), &bytes)
+            reading.open(&name, Source::File(path.clone()), bytes)
         }
         Input::Sample(sample) => reading.open_sample(sample),
         Input::Together { scene, others } => {
@@ -50,7 +50,7 @@ fn read_input(reading: &Reading, input: &Input) -> Result<Opened, Stop> {
         Input::Bytes { bytes, .. } if is_scene(&name) => open_scene(&name, None, bytes, among(&[])),
         Input::Bytes { bytes, .. } => {
             reading.show_beginning(&name, &Source::Bytes, bytes);
-            reading.open(&name, Source::Bytes, bytes)
+            reading.open(&name, Source::Bytes, bytes.to_vec())
         }
     }
 }
@@ -134,8 +134,8 @@ fn plain(error: &std::io::Error) -> String {
 }
 
 /// Looks at files one after the other.
-pub(super) fn look_at(paths: &[PathBuf], progress: &Progress, outbox: &Outbox) {
-    for path in paths {
+pub(super) fn look_at(files: &[Listed], progress: &Progress, outbox: &Outbox) {
+    for Listed { path, .. } in files {
         if progress.is_cancelled() {
             return;
         }

@@ -24,6 +24,13 @@ pub(super) const SMALL_BYTES: u64 = 4 << 20;
 /// hundredths of a second.
 const BEGINNING_BYTES: usize = 1 << 20;
 
+/// The text of files up to this size is kept, to be shown.
+const MOST_TEXT_BYTES: usize = if cfg!(target_arch = "wasm32") {
+    128 << 20
+} else {
+    512 << 20
+};
+
 /// What a file holds.
 pub(super) enum Opened {
     Clip(Box<Clip>),
@@ -173,17 +180,20 @@ impl Reading {
     }
 
     /// What the bytes of a file hold: a robot, or a clip as [`clip_of`](Self::clip_of) reads it.
-    pub(super) fn open(&self, name: &str, source: Source, bytes: &[u8]) -> Result<Opened, Stop> {
+    pub(super) fn open(&self, name: &str, source: Source, bytes: Vec<u8>) -> Result<Opened, Stop> {
         if is_poses_name(name) {
-            let poses = poses::read(bytes).map_err(|error| Stop::Failed(error.in_file(name)))?;
+            let poses = poses::read(&bytes).map_err(|error| Stop::Failed(error.in_file(name)))?;
             return Ok(Opened::Poses(name.to_owned(), poses));
         }
-        if is_robot(name, bytes) {
+        if is_robot(name, &bytes) {
             let robot =
-                Robot::read(name, bytes).map_err(|why| Stop::Failed(format!("{name}: {why}")))?;
+                Robot::read(name, &bytes).map_err(|why| Stop::Failed(format!("{name}: {why}")))?;
             return Ok(Opened::Robot(Box::new(robot)));
         }
-        let clip = self.clip_of(name, source, bytes)?;
+        let mut clip = self.clip_of(name, source, &bytes)?;
+        if bytes.len() <= MOST_TEXT_BYTES {
+            clip.text = Some(Arc::new(bytes));
+        }
         Ok(Opened::Clip(Box::new(clip)))
     }
 
@@ -236,7 +246,10 @@ fn beginning(name: &str, source: &Source, bytes: &[u8]) -> Option<Clip> {
 /// What is wrong with the bytes, for people.
 pub fn read_clip(name: &str, bytes: &[u8]) -> Result<Clip, String> {
     let import = bvh::read(bytes).map_err(|error| format!("{name}: {error}"))?;
-    Clip::from_bvh(name, Source::Bytes, import).map_err(|error| format!("{name}: {error}"))
+    let clip = Clip::from_bvh(name, Source::Bytes, import);
+    let mut clip = clip.map_err(|error| format!("{name}: {error}"))?;
+    clip.text = Some(Arc::new(bytes.to_vec()));
+    Ok(clip)
 }
 
 /// What the library says of a clip in these bytes.

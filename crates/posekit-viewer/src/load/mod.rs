@@ -21,11 +21,12 @@ use crate::state::arm::Robot;
 use crate::state::clip::Clip;
 use crate::state::interpolation::clip::{FillJob, Filled};
 use crate::state::session::ClipId;
+use crate::state::text::FileText;
 use crate::work::autosave::Kept;
 
 pub use job::read_clip;
 #[cfg(target_arch = "wasm32")]
-pub(crate) use page::listing_of;
+pub(crate) use page::{listing_of, name_at};
 
 /// What is to be read.
 #[derive(Clone, Debug)]
@@ -181,6 +182,8 @@ pub enum Event {
     Summary(Box<Summary>),
     /// All files of a folder were looked at.
     FolderDone,
+    /// The text of a file can be shown.
+    Text(Arc<FileText>),
 }
 
 /// What was chosen in a dialog.
@@ -203,8 +206,25 @@ pub enum Chosen {
 pub struct Listing {
     /// What they are called together.
     pub folder: String,
-    /// The address and the name of each.
-    pub clips: Vec<(PathBuf, String)>,
+    /// Each with its name.
+    pub clips: Vec<(Listed, String)>,
+    /// What the server has and does not list, for people.
+    pub shortage: Option<String>,
+}
+
+/// A file that can be looked at.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Listed {
+    /// Where it is; on a page, its address.
+    pub path: PathBuf,
+    /// Its size, where the list says it.
+    pub bytes: Option<u64>,
+}
+
+impl From<PathBuf> for Listed {
+    fn from(path: PathBuf) -> Self {
+        Self { path, bytes: None }
+    }
 }
 
 /// What the library says of a file that is not open.
@@ -393,16 +413,24 @@ impl Loader {
         });
     }
 
+    /// Starts making a file's text ready to be shown.
+    pub fn lay_out(&mut self, bytes: Arc<Vec<u8>>) {
+        let outbox = self.outbox.clone();
+        thread::start(move || {
+            outbox.send(Event::Text(Arc::new(FileText::new(bytes))));
+        });
+    }
+
     /// Starts looking at the files of a folder; one that was being looked at is given up.
-    pub fn look_at(&mut self, paths: Vec<PathBuf>) {
+    pub fn look_at(&mut self, files: Vec<Listed>) {
         self.forget_folder();
         let progress = Arc::new(Progress::default());
         self.folder = Some(Arc::clone(&progress));
         let outbox = self.outbox.clone();
         #[cfg(not(target_arch = "wasm32"))]
-        thread::start(move || disk::look_at(&paths, &progress, &outbox));
+        thread::start(move || disk::look_at(&files, &progress, &outbox));
         #[cfg(target_arch = "wasm32")]
-        page::look_at(paths, progress, outbox);
+        page::look_at(files, progress, outbox);
     }
 
     /// Stops looking at a folder.

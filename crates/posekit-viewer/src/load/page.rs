@@ -9,11 +9,11 @@ use std::sync::Arc;
 use js_sys::{Array, Promise, Reflect, Uint8Array};
 use wasm_bindgen::{JsCast as _, JsValue};
 use wasm_bindgen_futures::{JsFuture, spawn_local};
-use web_sys::{ReadableStream, ReadableStreamDefaultReader, Response, Url};
+use web_sys::{ReadableStream, ReadableStreamDefaultReader, RequestInit, Response, Url};
 
 use super::job::{self, Opened, Reading, SMALL_BYTES, Stop};
 use super::scene::{among, is_scene, read_scene};
-use super::{Event, Input, Listing, Outbox, Progress, Summary, thread};
+use super::{Event, Input, Listed, Listing, Outbox, Progress, Summary, thread};
 use crate::state::clip::Source;
 use crate::web;
 
@@ -65,14 +65,14 @@ pub(super) fn read(reading: Reading, input: Input) {
             _ => {}
         }
         let fetched = match &input {
-            Input::Path(address) => fetch(address, None, &watch).await,
+            Input::Path(address) => fetch(address, &watch).await,
             Input::Browser(file) => stream(&file.stream(), exact(file.size()), &watch).await,
             Input::Bytes { bytes, .. } => Ok(bytes.to_vec()),
             _ => Err(Stop::Failed(NO_PLACE.to_owned())),
         };
         match fetched {
             Ok(bytes) => thread::start(move || {
-                reading.hand_in(reading.open(&name, source, &bytes));
+                reading.hand_in(reading.open(&name, source, bytes));
             }),
             Err(Stop::Failed(why)) => {
                 reading.hand_in(Err(Stop::Failed(format!("{name}: {why}"))));
@@ -114,7 +114,7 @@ async fn open_at(name: &str, address: &Path, watch: &Watch<'_>) -> Result<Opened
         Stop::Failed(why) => Stop::Failed(format!("{file}: {why}")),
         cancelled => cancelled,
     };
-    let fetched = fetch(address, None, watch).await;
+    let fetched = fetch(address, watch).await;
     let bytes = fetched.map_err(|stop| told(stop, name))?;
     let mut files = Vec::new();
     // What is wrong with the text is told when it is read with its files.
@@ -130,7 +130,7 @@ async fn open_at(name: &str, address: &Path, watch: &Watch<'_>) -> Result<Opened
             } else {
                 PathBuf::from(format!("{folder}/{file}"))
             };
-            let fetched = fetch(&at, None, watch).await;
+            let fetched = fetch(&at, watch).await;
             let bytes = fetched.map_err(|stop| told(stop, file))?;
             let last = file.rsplit('/').next().unwrap_or(file);
             files.push((last.to_owned(), bytes));
@@ -166,27 +166,20 @@ struct Watch<'a> {
     grew: &'a dyn Fn(),
 }
 
-/// Looks at clips one after the other.
-pub(super) fn look_at(addresses: Vec<PathBuf>, progress: Arc<Progress>, outbox: Outbox) {
+/// Looks at clips one after the other. What is asked for here is waited for to its end: the browser would
+/// report what is broken off as a failure.
+pub(super) fn look_at(files: Vec<Listed>, progress: Arc<Progress>, outbox: Outbox) {
     spawn_local(async move {
         let mut fetched = 0;
-        for path in addresses {
+        for Listed { path, bytes } in files {
             web::pause(PREVIEW_PAUSE_MS).await;
+            if progress.is_cancelled() {
+                return;
+            }
             let outcome = if fetched < PREVIEW_BUDGET_BYTES {
-                let watch = Watch {
-                    // Its own: the list's tells whether the list is still wanted.
-                    progress: &Progress::default(),
-                    began: &|_| {},
-                    grew: &|| {},
-                };
-                match fetch(&path, Some(PREVIEW_LIMIT_BYTES), &watch).await {
-                    Ok(bytes) => {
-                        fetched += bytes.len() as u64;
-                        job::summarize(&bytes)
-                    }
-                    Err(Stop::Failed(why)) => Err(why),
-                    Err(Stop::Cancelled) => return,
-                }
+                let preview = preview_of(&path, bytes).await;
+                fetched += preview.as_ref().map_or(0, |bytes| bytes.len() as u64);
+                preview.and_then(|bytes| job::summarize(&bytes))
             } else {
                 Err("opened only when asked".to_owned())
             };
@@ -200,6 +193,32 @@ pub(super) fn look_at(addresses: Vec<PathBuf>, progress: Arc<Progress>, outbox: 
     });
 }
 
+/// The bytes of a clip that is small enough to be fetched just for a preview. Its size is what the list says,
+/// or, where that is silent, what the server says before it sends anything.
+async fn preview_of(address: &Path, bytes: Option<u64>) -> Result<Vec<u8>, String> {
+    let told = |stop: Stop| match stop {
+        Stop::Failed(why) => why,
+        Stop::Cancelled => "not looked at".to_owned(),
+    };
+    let bytes = match bytes {
+        Some(bytes) => Some(bytes),
+        None => {
+            let head = response_of(&address.to_string_lossy(), "HEAD").await;
+            length_of(&head.map_err(told)?)
+        }
+    };
+    if let Some(bytes) = bytes.filter(|&bytes| bytes > PREVIEW_LIMIT_BYTES) {
+        return Err(format!("{} MB: opened only when asked", bytes >> 20));
+    }
+    let watch = Watch {
+        // Its own: the list's tells whether the list is still wanted.
+        progress: &Progress::default(),
+        began: &|_| {},
+        grew: &|| {},
+    };
+    fetch(address, &watch).await.map_err(told)
+}
+
 /// The clips that a server offers, out of its list as the page got it: nothing if there are none.
 pub(crate) fn listing_of(list: &JsValue) -> Option<Listing> {
     let field = |value: &JsValue, name: &str| Reflect::get(value, &JsValue::from_str(name)).ok();
@@ -209,18 +228,23 @@ pub(crate) fn listing_of(list: &JsValue) -> Option<Listing> {
         .filter_map(|clip| {
             let name = field(&clip, "name")?.as_string()?;
             let address = field(&clip, "url")?.as_string()?;
-            Some((PathBuf::from(address), name))
+            let listed = Listed {
+                path: PathBuf::from(address),
+                bytes: field(&clip, "bytes").and_then(|bytes| exact(bytes.as_f64()?)),
+            };
+            Some((listed, name))
         })
         .collect();
     let folder = field(list, "folder").and_then(|folder| folder.as_string());
     (!clips.is_empty()).then(|| Listing {
         clips,
         folder: folder.unwrap_or_else(|| "Clips".to_owned()),
+        shortage: field(list, "shortage").and_then(|shortage| shortage.as_string()),
     })
 }
 
 /// What the file at an address is called.
-pub(super) fn name_at(address: &Path) -> String {
+pub(crate) fn name_at(address: &Path) -> String {
     let address = address.to_string_lossy();
     let path = address.split(['?', '#']).next().unwrap_or_default();
     let last = path.rsplit('/').next().unwrap_or_default();
@@ -230,26 +254,22 @@ pub(super) fn name_at(address: &Path) -> String {
     }
 }
 
-/// Fetches a file of the page's own origin, if it is not larger than `limit`.
-async fn fetch(address: &Path, limit: Option<u64>, watch: &Watch<'_>) -> Result<Vec<u8>, Stop> {
-    let response = response_of(&address.to_string_lossy()).await?;
-    let length = response.headers().get("content-length").ok().flatten();
-    let length = length.and_then(|length| length.parse().ok());
+/// Fetches a file of the page's own origin.
+async fn fetch(address: &Path, watch: &Watch<'_>) -> Result<Vec<u8>, Stop> {
+    let response = response_of(&address.to_string_lossy(), "GET").await?;
     let Some(body) = response.body() else {
         return Ok(Vec::new());
     };
-    if let (Some(limit), Some(length)) = (limit, length)
-        && length > limit
-    {
-        // The rest of it is not sent.
-        drop(body.cancel());
-        let why = format!("{} MB: opened only when asked", length >> 20);
-        return Err(Stop::Failed(why));
-    }
-    stream(&body, length, watch).await
+    stream(&body, length_of(&response), watch).await
 }
 
-async fn response_of(address: &str) -> Result<Response, Stop> {
+/// How many bytes the server says that there are. Those of a file that travels packed are more.
+fn length_of(response: &Response) -> Option<u64> {
+    let length = response.headers().get("content-length").ok().flatten()?;
+    length.parse().ok()
+}
+
+async fn response_of(address: &str, method: &str) -> Result<Response, Stop> {
     let failed = |why: &str| Stop::Failed(why.to_owned());
     let (Some(window), Some(whole)) = (web_sys::window(), whole_address(address)) else {
         return Err(failed("this is no address"));
@@ -258,7 +278,9 @@ async fn response_of(address: &str) -> Result<Response, Stop> {
     if window.location().origin().ok() != Some(whole.origin()) {
         return Err(failed("only files of this page's own origin are opened"));
     }
-    let response = JsFuture::from(window.fetch_with_str(&whole.href()))
+    let how = RequestInit::new();
+    how.set_method(method);
+    let response = JsFuture::from(window.fetch_with_str_and_init(&whole.href(), &how))
         .await
         .map_err(|_unreachable| failed("it could not be fetched: the server does not answer"))?;
     let response: Response = response.unchecked_into();

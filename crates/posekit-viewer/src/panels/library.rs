@@ -1,7 +1,7 @@
 //! The library: the clips that are open, and those of a folder.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use egui::{Color32, Rect, RichText, ScrollArea, Ui, pos2, vec2};
 use posekit_render::theme::CharacterColors;
@@ -11,6 +11,7 @@ use crate::command::Command;
 use crate::icons::{self, Icon, icon_button, sized_icon};
 use crate::load::{Job, SummaryNumbers};
 use crate::picture::Texture;
+use crate::state::clip::Source;
 use crate::state::library::{EntryState, Library};
 use crate::state::session::{ClipId, OpenClip, Session};
 use crate::theme::{GAP, Palette};
@@ -146,11 +147,13 @@ fn open_clip(
         picture,
         swatch,
     };
-    let buttons = response.hovered() || response.contains_pointer() || (open.shown && !chosen);
-    let room = if buttons { 54.0 } else { 0.0 };
-    paint_clip(ui, rect, &texts, room);
-    if buttons {
-        clip_buttons(ui, rect, open, chosen, asked);
+    let is_pointed_at = response.hovered() || response.contains_pointer();
+    let buttons = buttons_of(open, chosen, is_pointed_at);
+    paint_clip(ui, rect, &texts, room_for(buttons.len()));
+    for (slot, (icon, says, on, request)) in buttons.into_iter().enumerate() {
+        if row_button(ui, rect, slot, (icon, says, on), open.id).clicked() {
+            asked.requests.push(request);
+        }
     }
     let response = if clip.report.is_empty() {
         response
@@ -167,23 +170,21 @@ fn open_clip(
     }
 }
 
-fn clip_buttons(ui: &mut Ui, rect: Rect, open: &OpenClip, chosen: bool, asked: &mut Asked) {
-    let size = vec2(24.0, 24.0);
-    let place = |slot: f32| {
-        Rect::from_center_size(
-            pos2(rect.right() - 16.0 - 26.0 * slot, rect.center().y),
-            size,
-        )
-    };
-    let mut close = ui.new_child(egui::UiBuilder::new().max_rect(place(0.0)).id_salt(open.id));
-    if sized_icon(&mut close, Icon::Close, "Close", false, size).clicked() {
-        asked.requests.push(Request::Close(open.id));
+/// A button of a row: what it shows, says, whether it is on, and what it asks for.
+type RowButton = (Icon, &'static str, bool, Request);
+
+/// What a file's row offers beside being opened.
+const SHOW_TEXT: &str = "Show the text of the file";
+const DOWNLOAD: &str = "Download the file as it is";
+
+/// The buttons of an open clip, from the right: all of them where the pointer is, and without it the eye of
+/// one that is compared.
+fn buttons_of(open: &OpenClip, chosen: bool, is_pointed_at: bool) -> Vec<RowButton> {
+    let mut buttons = Vec::new();
+    if is_pointed_at || (open.shown && !chosen) {
+        buttons.push((Icon::Close, "Close", false, Request::Close(open.id)));
     }
-    if !chosen {
-        let builder = egui::UiBuilder::new()
-            .max_rect(place(1.0))
-            .id_salt((open.id, "eye"));
-        let mut eye = ui.new_child(builder);
+    if !chosen && (is_pointed_at || open.shown) {
         let (icon, says) = if open.shown {
             (Icon::Eye, "Take it off the stage")
         } else {
@@ -192,10 +193,45 @@ fn clip_buttons(ui: &mut Ui, rect: Rect, open: &OpenClip, chosen: bool, asked: &
                 "Compare: put it on the stage beside the active clip",
             )
         };
-        if sized_icon(&mut eye, icon, says, open.shown, size).clicked() {
-            asked.requests.push(Request::SetShown(open.id, !open.shown));
-        }
+        let request = Request::SetShown(open.id, !open.shown);
+        buttons.push((icon, says, open.shown, request));
     }
+    if is_pointed_at && open.clip.text.is_some() {
+        buttons.push((Icon::Text, SHOW_TEXT, false, Request::ShowText(open.id)));
+    }
+    if is_pointed_at
+        && cfg!(target_arch = "wasm32")
+        && let Source::File(address) = &open.clip.source
+    {
+        let request = Request::Download(address.clone());
+        buttons.push((Icon::Download, DOWNLOAD, false, request));
+    }
+    buttons
+}
+
+/// The room that a row's buttons take from its name.
+fn room_for(buttons: usize) -> f32 {
+    let buttons = u8::try_from(buttons).unwrap_or(u8::MAX);
+    f32::from(buttons) * BUTTON_STEP
+}
+
+/// From one button of a row to the next.
+const BUTTON_STEP: f32 = 26.0;
+
+/// A button in a row, counted from the right.
+fn row_button(
+    ui: &mut Ui,
+    rect: Rect,
+    slot: usize,
+    (icon, says, on): (Icon, &str, bool),
+    id: impl std::hash::Hash + Copy + std::fmt::Debug,
+) -> egui::Response {
+    let size = vec2(24.0, 24.0);
+    let center = pos2(rect.right() - 16.0 - room_for(slot), rect.center().y);
+    let place = Rect::from_center_size(center, size);
+    let builder = egui::UiBuilder::new().max_rect(place).id_salt((id, says));
+    let mut button = ui.new_child(builder);
+    sized_icon(&mut button, icon, says, on, size)
 }
 
 fn report_text(clip: &crate::state::clip::Clip) -> String {
@@ -283,15 +319,21 @@ fn folder(ui: &mut Ui, session: &Session, library: &Library<Preview>, asked: &mu
         ui.label(RichText::new(text).small().color(Palette::in_ui(ui).quiet));
     });
     let is_open = |path: &PathBuf| {
-        session.clips().iter().any(|open| {
-            matches!(&open.clip.source, crate::state::clip::Source::File(file) if file == path)
-        })
+        session
+            .clips()
+            .iter()
+            .any(|open| matches!(&open.clip.source, Source::File(file) if file == path))
     };
     let listed: Vec<_> = library
         .entries
         .iter()
         .filter(|entry| library.passes(&entry.name) && !is_open(&entry.path))
         .collect();
+    if let Some(shortage) = &library.shortage {
+        let warning = Palette::in_ui(ui).warning;
+        ui.add(egui::Label::new(RichText::new(shortage).small().color(warning)).wrap());
+        ui.add_space(GAP);
+    }
     if listed.is_empty() {
         row::empty_note(ui, "No clip here passes the filter.");
     }
@@ -323,7 +365,14 @@ fn folder(ui: &mut Ui, session: &Session, library: &Library<Preview>, asked: &mu
             picture,
             swatch: None,
         };
-        paint_clip(ui, rect, &texts, 0.0);
+        let is_pointed_at = response.hovered() || response.contains_pointer();
+        let buttons = buttons_of_listed(&entry.path, is_pointed_at);
+        paint_clip(ui, rect, &texts, room_for(buttons.len()));
+        for (slot, (icon, says, on, request)) in buttons.into_iter().enumerate() {
+            if row_button(ui, rect, slot, (icon, says, on), &entry.path).clicked() {
+                asked.requests.push(request);
+            }
+        }
         let response = response.on_hover_text(entry.path.display().to_string());
         if response.clicked() {
             let beside = ui.input(|i| i.modifiers.shift || i.modifiers.command);
@@ -332,6 +381,20 @@ fn folder(ui: &mut Ui, session: &Session, library: &Library<Preview>, asked: &mu
                 .push(Request::OpenPath(entry.path.clone(), beside));
         }
     }
+}
+
+/// The buttons of a file that is listed, from the right: a page always offers to save it.
+fn buttons_of_listed(path: &Path, is_pointed_at: bool) -> Vec<RowButton> {
+    let mut buttons = Vec::new();
+    if cfg!(target_arch = "wasm32") {
+        let request = Request::Download(path.to_owned());
+        buttons.push((Icon::Download, DOWNLOAD, false, request));
+    }
+    if is_pointed_at {
+        let request = Request::ShowTextOf(path.to_owned());
+        buttons.push((Icon::Text, SHOW_TEXT, false, request));
+    }
+    buttons
 }
 
 /// A duration as people say it.

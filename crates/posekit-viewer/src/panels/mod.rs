@@ -16,6 +16,7 @@ pub mod pose_library;
 pub mod reading;
 pub mod row;
 pub mod scene;
+pub mod text;
 pub mod things;
 pub mod timeline;
 pub mod top_bar;
@@ -40,6 +41,12 @@ pub enum Request {
     Close(ClipId),
     /// A file is opened; beside the active clip or alone.
     OpenPath(PathBuf, bool),
+    /// The text of an open clip's file is shown.
+    ShowText(ClipId),
+    /// A file is opened, and its text shown.
+    ShowTextOf(PathBuf),
+    /// A file of the server is saved as it is.
+    Download(PathBuf),
     /// The folder is not listed any more.
     CloseFolder,
     /// The active clip's finding of that place in the list is shown.

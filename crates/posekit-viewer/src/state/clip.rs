@@ -10,7 +10,7 @@ use posekit::motion::{GlobalMotion, Motion, PositionPolicies};
 use posekit::pose::{GlobalPose, LocalPose, forward_kinematics};
 use posekit::rotation::EulerOrder;
 use posekit::skeleton::{JointId, Skeleton, SkeletonError};
-use posekit_formats::bvh::Bvh;
+use posekit_formats::bvh::{self, Bvh};
 use posekit_formats::report::{Import, ImportReport};
 
 /// Where a clip came from.
@@ -99,6 +99,8 @@ pub struct Clip {
     pub source: Source,
     /// The document, as the file has it, or as a file of the sample would.
     pub document: Arc<Bvh>,
+    /// The bytes of its file, as they were read; none where there is no such file, or too large a one.
+    pub text: Option<Arc<Vec<u8>>>,
     /// What the reader noticed and repaired.
     pub report: ImportReport,
     /// How its numbers are read.
@@ -160,9 +162,11 @@ impl Clip {
     #[must_use]
     pub fn of_sample(name: impl Into<String>, sample: &str) -> Option<Self> {
         let motion = posekit::sample::by_name(sample)?;
+        let clip = Self::from_motion(name, motion);
         Some(Self {
             source: Source::Sample(sample.to_owned()),
-            ..Self::from_motion(name, motion)
+            text: Some(Arc::new(bvh::write(&clip.document))),
+            ..clip
         })
     }
 
@@ -172,6 +176,7 @@ impl Clip {
         self.global = Arc::new(motion.to_global());
         self.motion = motion;
         self.reading = Reading::default();
+        self.text = None;
         // What was wrong with its own text is gone with it; the files that a scene names are as they were.
         self.report
             .warnings
@@ -190,6 +195,7 @@ impl Clip {
             name,
             source,
             document: Arc::new(document),
+            text: None,
             report,
             reading: Reading::default(),
             motion: Arc::new(motion),

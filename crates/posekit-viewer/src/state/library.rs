@@ -31,6 +31,8 @@ pub struct Library<T> {
     pub folder: Option<PathBuf>,
     /// Its files, by name.
     pub entries: Vec<Entry<T>>,
+    /// What is in the folder and not among them, for people.
+    pub shortage: Option<String>,
     /// What was typed to filter by.
     pub filter: String,
 }
@@ -40,6 +42,7 @@ impl<T> Default for Library<T> {
         Self {
             folder: None,
             entries: Vec::new(),
+            shortage: None,
             filter: String::new(),
         }
     }
@@ -64,12 +67,14 @@ impl<T> Library<T> {
             state: EntryState::Unknown,
         };
         self.entries = files.into_iter().map(entry).collect();
+        self.shortage = None;
         self.folder = Some(folder);
     }
 
     /// Lists no folder.
     pub fn clear(&mut self) {
         self.entries.clear();
+        self.shortage = None;
         self.folder = None;
     }
 

@@ -16,5 +16,6 @@ pub mod pick;
 pub mod readout;
 pub mod session;
 pub mod settings;
+pub mod text;
 pub mod things;
 pub mod transport;

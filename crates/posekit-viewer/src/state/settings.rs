@@ -31,6 +31,8 @@ pub struct WindowLayout {
     pub right: bool,
     /// The curves.
     pub curves: bool,
+    /// The text of the file.
+    pub text: bool,
     /// At the left the poses instead of the clips, where poses are edited.
     pub poses: bool,
 }
@@ -41,6 +43,7 @@ impl Default for WindowLayout {
             left: true,
             right: true,
             curves: false,
+            text: false,
             poses: false,
         }
     }

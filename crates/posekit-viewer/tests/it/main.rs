@@ -20,5 +20,6 @@ mod real_files;
 mod saving;
 mod scenes;
 mod status;
+mod text;
 mod things;
 mod window;

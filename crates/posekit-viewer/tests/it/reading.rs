@@ -164,7 +164,7 @@ fn a_folder_is_looked_at_file_by_file() {
     std::fs::write(&good, arm_text(5)).expect("written");
     std::fs::write(&bad, "nothing").expect("written");
     let mut loader = loader();
-    loader.look_at(vec![good.clone(), bad.clone()]);
+    loader.look_at(vec![good.clone().into(), bad.clone().into()]);
     let mut outcomes = Vec::new();
     let start = Instant::now();
     while loader.is_looking() {

@@ -8,10 +8,13 @@ use crate::report::{ReadError, ReadErrorKind, WarningCode, quote};
 use posekit::motion::Channel;
 use posekit::rotation::Axis;
 use std::collections::HashMap;
+use std::ops::Range;
 
 /// The joints, and whether MOTION follows; the scanner then stands after that keyword.
 pub(super) struct Hierarchy {
     pub(super) joints: Vec<BvhJoint>,
+    /// Of each joint, where its own lines stand: from its keyword to the end of its CHANNELS or OFFSET.
+    pub(super) texts: Vec<Range<usize>>,
     pub(super) has_motion: bool,
 }
 
@@ -28,6 +31,7 @@ struct Open {
 #[derive(Default)]
 struct Builder {
     joints: Vec<BvhJoint>,
+    texts: Vec<Range<usize>>,
     open: Vec<Open>,
     /// Every name seen so far and its first joint. Only looked up, never walked over.
     names: HashMap<Vec<u8>, usize>,
@@ -77,6 +81,7 @@ pub(super) fn read(scanner: &mut Scanner<'_>) -> Result<Hierarchy, ReadError> {
     }
     Ok(Hierarchy {
         joints: builder.joints,
+        texts: builder.texts,
         has_motion,
     })
 }
@@ -260,6 +265,7 @@ impl Builder {
             is_end_site: end_site.is_some(),
             end_name: end_site.unwrap_or_default(),
         });
+        self.texts.push(at..scanner.pos);
         self.open.push(Open {
             joint,
             at,
@@ -300,6 +306,7 @@ impl Builder {
             *coordinate = number::read(scanner, "a number of OFFSET")?;
         }
         self.joints[open.joint].offset = offset;
+        self.texts[open.joint].end = scanner.pos;
         skip_extra_numbers(scanner)
     }
 
@@ -324,6 +331,7 @@ impl Builder {
                 });
             }
             self.joints[joint].channels.push(channel);
+            self.texts[joint].end = scanner.pos;
             listed += 1;
         }
         if announced != Some(listed) {

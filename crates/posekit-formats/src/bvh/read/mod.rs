@@ -9,14 +9,17 @@ mod hierarchy;
 mod motion;
 mod motion_header;
 mod number;
+mod places;
 mod rows;
 mod scan;
 
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 
 use super::{Bvh, Gap};
 use crate::report::{Import, ReadError, ReadErrorKind};
-use scan::Scanner;
+use motion::Wanted;
+pub use places::{Places, locate};
+use scan::{Comma, Scanner};
 
 /// How deep joints may be nested. A rope or a tail of a few hundred joints fits with room to spare.
 pub const MAX_DEPTH: usize = 1024;
@@ -85,7 +88,8 @@ pub fn read_with(
     options: ReadOptions,
     mut progress: impl FnMut(usize) -> ControlFlow<()>,
 ) -> Result<Import<Bvh>, ReadError> {
-    read_document(bytes, options, &mut progress, None)
+    let read = read_document(bytes, options, &mut progress, Wanted::default())?;
+    Ok(read.import)
 }
 
 /// Reads a BVH file in which values of the rows may be no numbers (`nan`, `inf`, `-nan(ind)`, `1.#QNAN`, or
@@ -98,21 +102,29 @@ pub fn read_with(
 pub fn read_with_gaps(bytes: &[u8]) -> Result<(Import<Bvh>, Vec<Gap>), ReadError> {
     let mut gaps = Vec::new();
     let mut progress = |_| ControlFlow::Continue(());
-    let import = read_document(
-        bytes,
-        ReadOptions::default(),
-        &mut progress,
-        Some(&mut gaps),
-    )?;
-    Ok((import, gaps))
+    let wanted = Wanted {
+        gaps: Some(&mut gaps),
+        starts: None,
+    };
+    let read = read_document(bytes, ReadOptions::default(), &mut progress, wanted)?;
+    Ok((read.import, gaps))
+}
+
+/// What was read.
+struct Read {
+    import: Import<Bvh>,
+    /// Where the joints' own lines stand.
+    texts: Vec<Range<usize>>,
+    /// What commas mean.
+    comma: Comma,
 }
 
 fn read_document(
     bytes: &[u8],
     options: ReadOptions,
     progress: &mut dyn FnMut(usize) -> ControlFlow<()>,
-    gaps: Option<&mut Vec<Gap>>,
-) -> Result<Import<Bvh>, ReadError> {
+    wanted: Wanted<'_>,
+) -> Result<Read, ReadError> {
     let mut scanner = Scanner::new(bytes);
     check_is_text(&mut scanner)?;
     let hierarchy = hierarchy::read(&mut scanner)?;
@@ -127,7 +139,7 @@ fn read_document(
             channel_count,
             options,
             progress,
-            gaps,
+            wanted,
         )?)
     } else {
         None
@@ -136,9 +148,13 @@ fn read_document(
         joints: hierarchy.joints,
         motion,
     };
-    Ok(Import {
-        document,
-        report: scanner.finish(),
+    Ok(Read {
+        texts: hierarchy.texts,
+        comma: scanner.comma,
+        import: Import {
+            document,
+            report: scanner.finish(),
+        },
     })
 }
 

@@ -9,14 +9,22 @@ use super::{Extent, PROGRESS_BYTES, ReadOptions, RowParser, number};
 use crate::bvh::{BvhMotion, Gap};
 use crate::report::{ReadError, ReadErrorKind, WarningCode};
 
-/// Reads the section; the scanner stands after MOTION. Values that are no numbers go to `gaps`, or are an error
-/// without it.
+/// What is wanted of the rows beside their values.
+#[derive(Default)]
+pub(super) struct Wanted<'w> {
+    /// Values that are not numbers; without it they are an error.
+    pub(super) gaps: Option<&'w mut Vec<Gap>>,
+    /// Where the rows begin. Only the careful parser says.
+    pub(super) starts: Option<&'w mut Vec<usize>>,
+}
+
+/// Reads the section; the scanner stands after MOTION.
 pub(super) fn read(
     scanner: &mut Scanner<'_>,
     channel_count: usize,
     options: ReadOptions,
     progress: &mut dyn FnMut(usize) -> ControlFlow<()>,
-    gaps: Option<&mut Vec<Gap>>,
+    wanted: Wanted<'_>,
 ) -> Result<BvhMotion, ReadError> {
     let mut header = motion_header::read(scanner)?;
     if options.extent == Extent::Beginning {
@@ -33,9 +41,13 @@ pub(super) fn read(
         rows: Rows::new(channel_count, values_expected, Lines::Ignored),
         promised: header.frame_count.map(|frames| frames * channel_count),
         parser: options.row_parser,
-        keeps_gaps: gaps.is_some(),
+        keeps_gaps: wanted.gaps.is_some(),
         progress,
     };
+    if wanted.starts.is_some() {
+        debug_assert_eq!(options.row_parser, RowParser::Careful);
+        walk.rows.keep_starts();
+    }
     walk.read(scanner)?;
     if walk.rows.is_out_of_step() && walk.promised != Some(walk.rows.values.len()) {
         scanner.pos = rows_at;
@@ -43,8 +55,11 @@ pub(super) fn read(
         walk.rows.restart(Lines::Kept);
         walk.read(scanner)?;
     }
+    if let Some(starts) = wanted.starts {
+        *starts = walk.rows.take_starts();
+    }
     let mut values = finish(scanner, walk.rows, &header);
-    if let Some(gaps) = gaps {
+    if let Some(gaps) = wanted.gaps {
         take_gaps(&mut values, channel_count, gaps);
     }
     Ok(BvhMotion {
@@ -121,15 +136,20 @@ impl RowWalk<'_> {
             if scanner.peek().is_none() {
                 break;
             }
+            let at = scanner.pos;
             match number::read(scanner, "a number") {
-                Ok(value) => self.rows.push(value, scanner.bytes.len() - scanner.pos),
+                Ok(value) => {
+                    let left = scanner.bytes.len() - scanner.pos;
+                    self.rows.push_from(at, value, left);
+                }
                 Err(_) if self.has_all_rows() => {
                     note_trailing_text(scanner);
                     break;
                 }
                 Err(error) if self.keeps_gaps && error.kind == ReadErrorKind::NotFinite => {
                     number::skip(scanner);
-                    self.rows.push(f64::NAN, scanner.bytes.len() - scanner.pos);
+                    let left = scanner.bytes.len() - scanner.pos;
+                    self.rows.push_from(at, f64::NAN, left);
                 }
                 Err(error) => return Err(error),
             }

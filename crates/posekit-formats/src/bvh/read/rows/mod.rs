@@ -21,6 +21,15 @@ pub(super) enum Lines {
     Kept,
 }
 
+/// Where rows begin, as values come one by one.
+#[derive(Debug, Default)]
+struct Starts {
+    /// Of each row its first value's place.
+    of_rows: Vec<usize>,
+    /// Of the line its first value's place.
+    of_line: Option<usize>,
+}
+
 /// The values as they come, and what was odd about the lines they came in.
 #[derive(Debug)]
 pub(super) struct Rows {
@@ -40,6 +49,8 @@ pub(super) struct Rows {
     out_of_step: bool,
     /// Where the lines end whose values were dropped.
     pub(super) damaged_at: Vec<usize>,
+    /// Where rows begin, if that is wanted.
+    starts: Option<Starts>,
     /// How many tokens the wide parser still lets pass before it tries again.
     #[cfg(target_arch = "x86_64")]
     patience: u32,
@@ -59,17 +70,33 @@ impl Rows {
             whole_lines: 0,
             out_of_step: false,
             damaged_at: Vec::new(),
+            starts: None,
             #[cfg(target_arch = "x86_64")]
             patience: 0,
         }
+    }
+
+    /// Notes where rows begin from here on. Values then come by [`push_from`](Self::push_from).
+    pub(super) fn keep_starts(&mut self) {
+        self.starts = Some(Starts::default());
+    }
+
+    /// Where the whole rows begin, if that was wanted.
+    pub(super) fn take_starts(&mut self) -> Vec<usize> {
+        let starts = self.starts.take().unwrap_or_default();
+        let mut starts = starts.of_rows;
+        starts.truncate(self.values.len() / self.channel_count);
+        starts
     }
 
     /// Forgets everything, to read the same rows again with another meaning of line ends.
     pub(super) fn restart(&mut self, lines: Lines) {
         let mut values = std::mem::take(&mut self.values);
         values.clear();
+        let starts = self.starts.take().map(|_| Starts::default());
         *self = Self {
             values,
+            starts,
             ..Self::new(self.channel_count, 0, lines)
         };
     }
@@ -81,9 +108,20 @@ impl Rows {
     }
 
     /// Adds a value; `bytes_left` bounds how many more may come.
-    pub(super) fn push(&mut self, value: f64, bytes_left: usize) {
+    fn push(&mut self, value: f64, bytes_left: usize) {
         self.reserve(1, bytes_left);
         self.values.push(value);
+    }
+
+    /// Adds a value that begins at a byte offset.
+    pub(super) fn push_from(&mut self, at: usize, value: f64, bytes_left: usize) {
+        if let Some(starts) = &mut self.starts {
+            starts.of_line.get_or_insert(at);
+            if self.values.len().is_multiple_of(self.channel_count) {
+                starts.of_rows.push(at);
+            }
+        }
+        self.push(value, bytes_left);
     }
 
     /// Makes room. Beyond what the header promised, room grows by an eighth at a time, and never beyond
@@ -102,6 +140,10 @@ impl Rows {
             let hanging = self.line_start % self.channel_count;
             if hanging > 0 && self.lines == Lines::Kept {
                 self.values.drain(self.in_step..self.line_start);
+                if let Some(starts) = &mut self.starts {
+                    starts.of_rows.truncate(self.in_step / self.channel_count);
+                    starts.of_rows.extend(starts.of_line);
+                }
                 self.damaged_at.push(self.last_odd_line_at);
             }
             self.whole_lines += 1;
@@ -110,6 +152,9 @@ impl Rows {
             self.odd_lines += 1;
             self.odd_line_at.get_or_insert(at);
             self.last_odd_line_at = at;
+        }
+        if let Some(starts) = &mut self.starts {
+            starts.of_line = None;
         }
         self.line_start = self.values.len();
         if self.line_start.is_multiple_of(self.channel_count) {
