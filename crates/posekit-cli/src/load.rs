@@ -26,9 +26,10 @@ pub(crate) struct Loaded {
 impl Loaded {
     /// The motion that the document's channels make.
     pub(crate) fn motion(&self, policies: PositionPolicies) -> Result<Motion, Failure> {
-        self.bvh
-            .to_motion(policies)
-            .map_err(|error| Failure::new(error.to_string()))
+        self.bvh.to_motion(policies).map_err(|error| {
+            Failure::new(error.to_string())
+                .try_next("posekit check says where in the file such values stand")
+        })
     }
 
     /// What position channels turn out to mean where they are no places, as a warning that names the option.

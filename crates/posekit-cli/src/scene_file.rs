@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::Path;
 
+use posekit::motion::Motion;
+use posekit::range::LONGEST_LENGTH;
 use posekit::rotation::EulerOrder;
 use posekit_formats::bvh::Bvh;
 use posekit_formats::gltf;
@@ -49,9 +51,24 @@ pub(crate) fn shot(path: &Path, scene: &Scene) -> Result<Import<Shot>, Failure> 
     Ok(Import { document, report })
 }
 
+/// Fails where a joint of a baked scene is so far away that what is computed of it may not be finite: keys are not,
+/// but curves between them and cycles beyond them may be.
+pub(crate) fn refuse_too_far(motion: &Motion) -> Result<(), Failure> {
+    let Some((frame, joint)) = motion.first_out_of_range() else {
+        return Ok(());
+    };
+    let name = motion.skeleton().unique_name(joint);
+    let why = format!(
+        "the keys put joint '{name}' at frame {frame} farther away than {LONGEST_LENGTH:e}, of which no motion can be made"
+    );
+    Err(Failure::new(why).try_next("look at its slopes, and at what it does beyond its keys"))
+}
+
 /// The scene of a file as the document that all commands work on: baked at its own rate.
 pub(crate) fn document(path: &Path) -> Result<Import<Bvh>, Failure> {
     let Import { document, report } = shot(path, &read(path)?)?;
-    let document = Bvh::from_motion(&document.bake(None), EulerOrder::ZXY);
+    let motion = document.bake(None);
+    refuse_too_far(&motion).map_err(|failure| failure.in_file(&path.display().to_string()))?;
+    let document = Bvh::from_motion(&motion, EulerOrder::ZXY);
     Ok(Import { document, report })
 }

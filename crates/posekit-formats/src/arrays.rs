@@ -3,7 +3,12 @@
 //! The arrays are not made whole: the writers go over the motion and hand on a few frames at a time,
 //! so that a file of any length is written in little memory.
 //!
+//! A number that is not finite, which no motion from a file makes, is an error of the kind `InvalidData`, and is never
+//! written.
+//!
 //! Space and units: world space, the file's length unit, seconds, unit quaternions as x, y, z, w.
+
+use std::io;
 
 use glam::Vec3;
 use posekit::motion::GlobalMotion;
@@ -66,6 +71,41 @@ impl MotionArrays<'_> {
     /// The time of a frame in seconds, counted from frame 0 of the motion.
     pub fn time_secs(&self, frame: usize) -> f64 {
         frame_number(frame) * self.motion.frame_time_secs()
+    }
+
+    pub(crate) fn position(&self, frame: usize, joint: JointId) -> io::Result<[f32; 3]> {
+        let place = self.motion.position(frame, joint).to_array();
+        self.finite(place, frame, joint)
+    }
+
+    pub(crate) fn orientation(&self, frame: usize, joint: JointId) -> io::Result<[f32; 4]> {
+        let orientation = self.motion.orientation(frame, joint).to_array();
+        self.finite(orientation, frame, joint)
+    }
+
+    /// Where a point is in the world.
+    pub(crate) fn point(&self, frame: usize, point: &AttachedPoint) -> io::Result<[f32; 3]> {
+        let AttachedPoint {
+            joint,
+            point_in_joint,
+        } = *point;
+        let place = self.motion.transform_point(frame, joint, point_in_joint);
+        self.finite(place.to_array(), frame, joint)
+    }
+
+    fn finite<const N: usize>(
+        &self,
+        numbers: [f32; N],
+        frame: usize,
+        joint: JointId,
+    ) -> io::Result<[f32; N]> {
+        if numbers.iter().all(|number| number.is_finite()) {
+            return Ok(numbers);
+        }
+        let name = self.motion.skeleton().unique_name(joint);
+        let why =
+            format!("joint `{name}` is not at a place that is a finite number at frame {frame}");
+        Err(io::Error::new(io::ErrorKind::InvalidData, why))
     }
 
     /// What a point is called: its joint's unique name and its number, as `Hand#0`.

@@ -14,7 +14,7 @@ use crate::number_text::NumberText;
 /// Writes a motion in world space, a row a frame.
 ///
 /// # Errors
-/// When `out` cannot be written.
+/// When `out` cannot be written, or a number is not finite.
 ///
 /// # Panics
 /// If a joint or a frame is not one of the motion's.
@@ -34,14 +34,11 @@ pub fn write(arrays: &MotionArrays<'_>, out: &mut impl Write) -> io::Result<()> 
             }
         };
         for &joint in arrays.joints {
-            push(&arrays.motion.position(frame, joint).to_array());
-            push(&arrays.motion.orientation(frame, joint).to_array());
+            push(&arrays.position(frame, joint)?);
+            push(&arrays.orientation(frame, joint)?);
         }
         for point in arrays.points {
-            let place = arrays
-                .motion
-                .transform_point(frame, point.joint, point.point_in_joint);
-            push(&place.to_array());
+            push(&arrays.point(frame, point)?);
         }
         row.push(b'\n');
         out.write_all(&row)?;

@@ -20,8 +20,7 @@
 //! }
 //! ```
 //!
-//! A frame is a line. Numbers are the shortest that read back the same; what JSON has no number for
-//! (a position beyond `f32`) is `null`.
+//! A frame is a line. Numbers are the shortest that read back the same.
 
 use std::io::{self, Write};
 
@@ -33,7 +32,7 @@ use crate::number_text::NumberText;
 /// Writes a motion in world space as one JSON object.
 ///
 /// # Errors
-/// When `out` cannot be written.
+/// When `out` cannot be written, or a number is not finite.
 ///
 /// # Panics
 /// If a joint or a frame is not one of the motion's.
@@ -67,11 +66,11 @@ pub fn write(arrays: &MotionArrays<'_>, out: &mut impl Write) -> io::Result<()> 
         out,
     };
     frames.write("positions", arrays.joints, |frame, joint: &JointId| {
-        motion.position(frame, *joint).to_array()
+        arrays.position(frame, *joint)
     })?;
     writeln!(frames.out, ",")?;
     frames.write("orientations", arrays.joints, |frame, joint: &JointId| {
-        motion.orientation(frame, *joint).to_array()
+        arrays.orientation(frame, *joint)
     })?;
     if !arrays.points.is_empty() {
         let skeleton = motion.skeleton();
@@ -92,9 +91,7 @@ pub fn write(arrays: &MotionArrays<'_>, out: &mut impl Write) -> io::Result<()> 
         let offsets = list(offsets);
         writeln!(frames.out, "\"point_offsets\": {offsets},")?;
         frames.write("points", arrays.points, |frame, point: &AttachedPoint| {
-            motion
-                .transform_point(frame, point.joint, point.point_in_joint)
-                .to_array()
+            arrays.point(frame, point)
         })?;
     }
     writeln!(out, "\n}}")
@@ -113,7 +110,7 @@ impl<W: Write> FrameWriter<'_, W> {
         &mut self,
         name: &str,
         items: &[T],
-        value: impl Fn(usize, &T) -> [f32; D],
+        value: impl Fn(usize, &T) -> io::Result<[f32; D]>,
     ) -> io::Result<()> {
         write!(self.out, "\"{name}\": [")?;
         for (row, &frame) in self.frames.iter().enumerate() {
@@ -123,7 +120,7 @@ impl<W: Write> FrameWriter<'_, W> {
             for (place, item) in items.iter().enumerate() {
                 self.line
                     .extend_from_slice(if place == 0 { b"[" } else { b",[" });
-                for (axis, number) in value(frame, item).into_iter().enumerate() {
+                for (axis, number) in value(frame, item)?.into_iter().enumerate() {
                     if axis > 0 {
                         self.line.push(b',');
                     }

@@ -48,7 +48,7 @@ pub enum Compression {
 /// | `point_offsets` | (P, 3) | float32 | where they are in their joints' spaces |
 ///
 /// # Errors
-/// When `out` cannot be written.
+/// When `out` cannot be written, or a number is not finite.
 ///
 /// # Panics
 /// If a joint or a frame is not one of the motion's.
@@ -67,7 +67,7 @@ pub fn write<W: Write + Seek>(
     archive.array("positions", &[f, j, 3], |values| {
         for &frame in arrays.frames {
             for &joint in arrays.joints {
-                values.write(&motion.position(frame, joint).to_array())?;
+                values.write(&arrays.position(frame, joint)?)?;
             }
         }
         Ok(())
@@ -75,7 +75,7 @@ pub fn write<W: Write + Seek>(
     archive.array("orientations", &[f, j, 4], |values| {
         for &frame in arrays.frames {
             for &joint in arrays.joints {
-                values.write(&motion.orientation(frame, joint).to_array())?;
+                values.write(&arrays.orientation(frame, joint)?)?;
             }
         }
         Ok(())
@@ -96,8 +96,7 @@ pub fn write<W: Write + Seek>(
         archive.array("points", &[f, p, 3], |values| {
             for &frame in arrays.frames {
                 for point in arrays.points {
-                    let place = motion.transform_point(frame, point.joint, point.point_in_joint);
-                    values.write(&place.to_array())?;
+                    values.write(&arrays.point(frame, point)?)?;
                 }
             }
             Ok(())

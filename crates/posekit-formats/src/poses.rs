@@ -15,6 +15,7 @@
 use std::fmt::Write;
 
 use glam::{DQuat, DVec3};
+use posekit::range::{LONGEST_LENGTH, are_lengths};
 
 use crate::number_text::NumberText;
 use crate::scene::read::fields::{Fields, Node, Problems};
@@ -85,7 +86,7 @@ pub fn read(bytes: &[u8]) -> Result<Vec<SavedPose>, SceneReadError> {
 
 fn pose(fields: &mut Fields<'_>, problems: &mut Problems) -> Option<SavedPose> {
     let name = fields.take("name", "a name", problems, |node| node.text());
-    let is_height = |height: &f64| *height > 0.0;
+    let is_height = |height: &f64| *height > 0.0 && are_lengths([*height]);
     let height = fields.take("height", "a number greater than 0", problems, |node| {
         node.number().filter(is_height)
     });
@@ -118,10 +119,12 @@ fn joint(fields: &mut Fields<'_>, problems: &mut Problems) -> Option<SavedJoint>
         problems,
         unit_quaternion,
     );
-    let what = "three numbers";
-    let read =
-        |node: &Node<'_>| Some(node.numbers().map(DVec3::from_array)).filter(Option::is_some);
-    let translation = fields.take_or("translation", None, what, problems, read);
+    let what = format!("three numbers within {LONGEST_LENGTH:e}");
+    let read = |node: &Node<'_>| {
+        let place = node.numbers().filter(|&place| are_lengths(place))?;
+        Some(Some(DVec3::from_array(place)))
+    };
+    let translation = fields.take_or("translation", None, &what, problems, read);
     Some(SavedJoint {
         name: name?.to_owned(),
         rotation: rotation?,

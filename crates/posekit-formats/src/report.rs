@@ -174,6 +174,8 @@ pub enum ReadErrorKind {
     Unexpected,
     /// A number is `nan`, `inf` or too large for a double.
     NotFinite,
+    /// A length is so large that nothing can be made of it.
+    OutOfRange,
     /// A channel has a name nobody knows.
     UnknownChannel,
     /// The file ends, or the motion begins, inside a joint.

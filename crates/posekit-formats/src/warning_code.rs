@@ -89,8 +89,10 @@ warning_codes! {
     MissingFrameCount, "missing-frame-count", Warning;
     /// There is no `Frame Time:`; 1/30 s is used.
     MissingFrameTime, "missing-frame-time", Warning;
-    /// The frame time is zero or negative; it is kept as the file says.
+    /// The frame time is zero, negative, or so short or long that no motion has it; it is kept as the file says.
     BadFrameTime, "bad-frame-time", Warning;
+    /// A length or an angle is so large that no motion can be made of it; it is kept as the file says.
+    ValueOutOfRange, "value-out-of-range", Warning;
     /// `Frames:` announces a different number of rows than there are; the rows are used.
     FrameCountMismatch, "frame-count-mismatch", Warning;
     /// The last row is not complete; it was dropped.

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use glam::Vec3;
 
-use posekit::motion::Motion;
+use posekit::motion::{FrameTime, Motion};
 use posekit::skeleton::{Skeleton, SkeletonBuilder, SkeletonError};
 use posekit_render::cpu;
 use posekit_render::output::write_png;
@@ -18,7 +18,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let path = std::env::args()
         .nth(1)
         .unwrap_or_else(|| "figure.png".to_owned());
-    let motion = Motion::at_rest(Arc::new(skeleton()?), 1, 1.0 / 30.0, []);
+    let motion = Motion::at_rest(Arc::new(skeleton()?), 1, FrameTime::of_fps(30), []);
     let actor = Actor::new(
         Arc::new(motion),
         SkeletonStyle::Body,

@@ -18,7 +18,7 @@
 //! ```
 //! use std::sync::Arc;
 //! use glam::Vec3;
-//! use posekit::{motion::Motion, skeleton::SkeletonBuilder};
+//! use posekit::{motion::{FrameTime, Motion}, skeleton::SkeletonBuilder};
 //! use posekit_render::{cpu, output::write_png};
 //! use posekit_render::stage::{Actor, SkeletonStyle, Stage, StageOptions};
 //! use posekit_render::theme::CharacterColors;
@@ -27,7 +27,7 @@
 //! let base = arm.joint("base", None, Vec3::ZERO);
 //! let elbow = arm.joint("elbow", Some(base), Vec3::Y);
 //! arm.end_site("tip", elbow, Vec3::X);
-//! let motion = Arc::new(Motion::at_rest(Arc::new(arm.build()?), 1, 1.0 / 30.0, []));
+//! let motion = Arc::new(Motion::at_rest(Arc::new(arm.build()?), 1, FrameTime::of_fps(30), []));
 //! let actor = Actor::new(motion, SkeletonStyle::Body, CharacterColors::of(0));
 //! let stage = Stage::new(vec![actor], StageOptions::default());
 //! let image = cpu::render(&stage.scene(0.0, 1.5), 300, 200);

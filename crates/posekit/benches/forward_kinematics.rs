@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 use glam::{Mat4, Vec3};
 use harness::{Table, Unit, time_asked};
-use posekit::motion::{Channel, ChannelLayout, Motion, PositionPolicy};
+use posekit::motion::{Channel, ChannelLayout, FrameTime, Motion, PositionPolicy};
 use posekit::pose::{GlobalPose, LocalPose, forward_kinematics};
 use posekit::rotation::Axis;
 use posekit::skeleton::{JointId, Skeleton, SkeletonBuilder};
@@ -95,12 +95,21 @@ fn main() {
 }
 
 fn refill(motion: &mut Motion, layout: &ChannelLayout, rows: &[f64]) {
-    motion.set_channel_rows(1.0 / 60.0, layout, rows, PositionPolicy::Replace);
+    motion
+        .set_channel_rows(FrameTime::of_fps(60), layout, rows, PositionPolicy::Replace)
+        .expect("values in range");
 }
 
 fn from_rows(skeleton: &Arc<Skeleton>, layout: &ChannelLayout, rows: &[f64]) -> Motion {
     let skeleton = Arc::clone(skeleton);
-    Motion::from_channel_rows(skeleton, 1.0 / 60.0, layout, rows, PositionPolicy::Replace)
+    Motion::from_channel_rows(
+        skeleton,
+        FrameTime::of_fps(60),
+        layout,
+        rows,
+        PositionPolicy::Replace,
+    )
+    .expect("values in range")
 }
 
 fn matrices(skeleton: &Skeleton, poses: &[LocalPose]) {

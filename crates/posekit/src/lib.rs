@@ -23,6 +23,7 @@ mod lanes;
 pub mod mechanism;
 pub mod motion;
 pub mod pose;
+pub mod range;
 pub mod rotation;
 pub mod sample;
 pub mod skeleton;

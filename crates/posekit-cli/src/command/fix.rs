@@ -4,6 +4,7 @@ use std::ffi::OsString;
 use std::io::Write;
 
 use clap::Args;
+use posekit::motion::FrameTime;
 use posekit_formats::bvh::{
     self, Bvh, Change, FixConfig, Gap, GapError, NameRepair, WriteOptions, write_to,
 };
@@ -162,7 +163,7 @@ fn bridge(
     bytes: &[u8],
     name: &str,
 ) -> Result<Vec<Change>, Failure> {
-    if gaps.is_empty() {
+    if gaps.is_empty() && !args.bridge_gaps {
         return Ok(Vec::new());
     }
     if !args.bridge_gaps {
@@ -171,12 +172,10 @@ fn bridge(
             Ok(_) => Failure::new("has values that are no numbers").in_file(name),
         });
     }
-    let frame_time_secs = document
-        .motion
-        .as_ref()
-        .map_or(0.0, |it| it.frame_time_secs);
-    let most_frames = frames_in(args.max_gap, frame_time_secs)?;
-    bvh::bridge_gaps(document, gaps, most_frames).map_err(|error| {
+    let most_frames = frames_in(args.max_gap, document.frame_time())?;
+    let mut gaps = [gaps, &document.values_out_of_range()].concat();
+    gaps.sort_unstable();
+    bvh::bridge_gaps(document, &gaps, most_frames).map_err(|error| {
         let failure = Failure::new(error.to_string()).in_file(name);
         match error {
             GapError::TooLong { .. } => failure.try_next("--max-gap allows longer ones"),
@@ -191,8 +190,8 @@ fn bridge(
     clippy::cast_sign_loss,
     reason = "a cast from float to integer saturates, and the number is not negative"
 )]
-fn frames_in(secs: f64, frame_time_secs: f64) -> Result<usize, Failure> {
-    const USUAL_FRAME_TIME_SECS: f64 = 1.0 / 30.0;
+fn frames_in(secs: f64, frame_time: FrameTime) -> Result<usize, Failure> {
+    const USUAL: FrameTime = FrameTime::of_fps(30);
     /// A gap of 0.5 s at a frame time of 0.0166667 s has 30 frames.
     const ROUNDING: f64 = 1e-3;
     if !(secs >= 0.0 && secs.is_finite()) {
@@ -200,11 +199,11 @@ fn frames_in(secs: f64, frame_time_secs: f64) -> Result<usize, Failure> {
             "--max-gap is a number of seconds, not below zero",
         ));
     }
-    let frame_time_secs = match frame_time_secs > 0.0 {
-        true => frame_time_secs,
-        false => USUAL_FRAME_TIME_SECS,
+    let frame_time = match frame_time.is_none() {
+        true => USUAL,
+        false => frame_time,
     };
-    Ok((secs / frame_time_secs + ROUNDING).floor() as usize)
+    Ok((secs / frame_time.secs() + ROUNDING).floor() as usize)
 }
 
 fn json_line(name: &str, changes: &[Change], written: Option<&str>) -> String {

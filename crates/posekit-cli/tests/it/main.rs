@@ -23,6 +23,7 @@ mod info;
 mod inside;
 mod keys;
 mod manuals;
+mod numbers;
 mod numpy;
 mod real_files;
 mod reference;

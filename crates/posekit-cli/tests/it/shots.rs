@@ -53,7 +53,7 @@ fn a_frame_of_the_windows_video_is_the_commands_frame() {
     let shot = session.authored().unwrap().scene();
     let camera = shot.cameras.len() - 1;
     let folder = Folder::with_arm();
-    folder.write("shot.posekit.toml", scene::write(shot));
+    folder.write("shot.posekit.toml", scene::write(shot).unwrap());
     let options = ExportOptions {
         size: ExportSize::Small,
         camera: ExportCamera::Scene(camera),

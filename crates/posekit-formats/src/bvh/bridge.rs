@@ -16,7 +16,8 @@ use super::edit::columns::{rotation_columns, rotation_of};
 use super::edit::resample::{angles_at, mix, near_angle, set_angles, whole_order};
 use super::{Bvh, Change, ChangeCode};
 
-/// A value that is no number.
+/// A value that is no number, or none that a motion can be made of
+/// ([`Bvh::values_out_of_range`](super::Bvh::values_out_of_range)).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Gap {
     /// Its frame, counted from 0.

@@ -6,10 +6,11 @@ use posekit::check::{
     check_channels, check_motion, relative_positions,
 };
 use posekit::motion::{Motion, PositionPolicies};
-use posekit::skeleton::{JointId, Skeleton, SkeletonError};
+use posekit::range::{LONGEST_LENGTH, are_lengths};
+use posekit::skeleton::{JointId, Skeleton};
 
 use super::bridge::in_words;
-use super::{Bvh, BvhJoint, Gap, JointGaps, bridge_gaps, gaps_by_joint};
+use super::{Bvh, BvhJoint, Gap, JointGaps, MotionError, bridge_gaps, gaps_by_joint};
 use crate::report::{self, ImportReport, Place, Warning, WarningCode};
 
 /// One entry of a file's check, ready to be shown: a [`Finding`] or a reader's [`Warning`].
@@ -47,18 +48,19 @@ pub struct CheckEntry {
 /// finding, and the motion is checked as it is meant: otherwise a figure that nobody recorded is blamed.
 ///
 /// # Errors
-/// When the document has no skeleton, as [`Bvh::to_skeleton`].
+/// When the document has no joints, or a parent does not come before its child.
 pub fn check(
     bvh: &Bvh,
     import_report: &ImportReport,
     policies: impl Into<PositionPolicies>,
     config: &CheckConfig,
-) -> Result<Vec<CheckEntry>, SkeletonError> {
-    check_whole(bvh, import_report, policies.into(), config, Vec::new())
+) -> Result<Vec<CheckEntry>, MotionError> {
+    check_with_gaps(bvh, &[], import_report, policies, config)
 }
 
 /// As [`check`], of a document that [`read_with_gaps`](super::read_with_gaps) gave: values that are no
-/// numbers are findings, one a joint, and everything else is checked with bridges over them.
+/// numbers are findings, one a joint, and everything else is checked with bridges over them. So it is of values
+/// that are too large to make a motion of.
 ///
 /// # Errors
 /// As [`check`].
@@ -68,19 +70,106 @@ pub fn check_with_gaps(
     import_report: &ImportReport,
     policies: impl Into<PositionPolicies>,
     config: &CheckConfig,
-) -> Result<Vec<CheckEntry>, SkeletonError> {
+) -> Result<Vec<CheckEntry>, MotionError> {
     let policies = policies.into();
-    if gaps.is_empty() {
-        return check(bvh, import_report, policies, config);
+    let mut entries = reader_entries(import_report);
+    let beyond = OutOfRange::of(bvh);
+    if gaps.is_empty() && beyond.is_none() {
+        return check_whole(bvh, entries, policies, config, Vec::new());
     }
     let found = gaps_by_joint(bvh, gaps)
         .iter()
         .map(gap_finding(bvh))
         .collect();
     let mut whole = bvh.clone();
-    // What cannot be bridged at all stays as the reader filled it.
-    let _ = bridge_gaps(&mut whole, gaps, usize::MAX);
-    check_whole(&whole, import_report, policies, config, found)
+    let mut bridged = [gaps, &beyond.values].concat();
+    bridged.sort_unstable();
+    beyond.remove_from(&mut whole);
+    // What cannot be bridged at all stays 0.
+    let _ = bridge_gaps(&mut whole, &bridged, usize::MAX);
+    beyond.add_to(&mut entries, bvh);
+    check_whole(&whole, entries, policies, config, found)
+}
+
+/// The lengths and angles of a document of which no motion can be made.
+struct OutOfRange {
+    values: Vec<Gap>,
+    /// The joints whose OFFSETs have such a coordinate.
+    offsets: Vec<usize>,
+}
+
+impl OutOfRange {
+    fn of(bvh: &Bvh) -> Self {
+        let is_beyond = |joint: &BvhJoint| !are_lengths(joint.offset);
+        let joints = bvh.joints.iter().enumerate();
+        Self {
+            values: bvh.values_out_of_range(),
+            offsets: joints
+                .filter(|(_, joint)| is_beyond(joint))
+                .map(|(index, _)| index)
+                .collect(),
+        }
+    }
+
+    fn is_none(&self) -> bool {
+        self.values.is_empty() && self.offsets.is_empty()
+    }
+
+    /// Puts 0 in their place.
+    fn remove_from(&self, bvh: &mut Bvh) {
+        for &joint in &self.offsets {
+            let offset = &mut bvh.joints[joint].offset;
+            *offset = offset.map(|value| if are_lengths([value]) { value } else { 0.0 });
+        }
+        let width = bvh.channel_count();
+        if let Some(motion) = &mut bvh.motion {
+            for gap in &self.values {
+                motion.values[gap.frame * width + gap.column] = 0.0;
+            }
+        }
+    }
+
+    /// Says whose they are, in the entry that has the place of the first where the document came from a text.
+    fn add_to(&self, entries: &mut Vec<CheckEntry>, bvh: &Bvh) {
+        let code = WarningCode::ValueOutOfRange.code();
+        let by_joint = gaps_by_joint(bvh, &self.values);
+        let mut joints: Vec<usize> = by_joint.iter().map(|it| it.joint).collect();
+        joints.extend(&self.offsets);
+        joints.sort_unstable();
+        joints.dedup();
+        let names = joints
+            .iter()
+            .map(|&joint| bvh.joints[joint].name().into_owned());
+        let names: Vec<String> = names.collect();
+        let ends = self.values.first().zip(self.values.last());
+        let frames = ends.map(|(first, last)| FrameRange {
+            first: first.frame,
+            last: last.frame,
+        });
+        let count = self.values.len() + self.offsets.len();
+        let whose = names.join(", ");
+        let at = frames.map_or_else(String::new, |frames| format!(" in {frames}"));
+        let is_there = |entry: &&mut CheckEntry| entry.code == code && entry.file.is_none();
+        if let Some(entry) = entries.iter_mut().find(is_there) {
+            entry.message = format!("{}; of {whose}{at}", entry.message);
+            (entry.joints, entry.frames) = (names, frames);
+            return;
+        }
+        entries.push(CheckEntry {
+            code,
+            severity: Severity::Error,
+            joints: names,
+            frames,
+            file: None,
+            place: None,
+            value: count as f64,
+            unit: Unit::Occurrences,
+            share_of_height: None,
+            message: format!(
+                "{count} values of {whose}{at} are not within {LONGEST_LENGTH:e}: no motion can be made of them"
+            ),
+        });
+    }
 }
 
 /// What is said of a joint with values that are no numbers.
@@ -118,11 +207,11 @@ fn gap_finding(bvh: &Bvh) -> impl Fn(&JointGaps) -> Finding {
 
 fn check_whole(
     bvh: &Bvh,
-    import_report: &ImportReport,
+    mut entries: Vec<CheckEntry>,
     policies: PositionPolicies,
     config: &CheckConfig,
     more: Vec<Finding>,
-) -> Result<Vec<CheckEntry>, SkeletonError> {
+) -> Result<Vec<CheckEntry>, MotionError> {
     let mut motion = bvh.to_motion(policies)?;
     let relative = bvh.relative_positions(&motion, policies);
     if let Some(relative) = &relative {
@@ -138,7 +227,6 @@ fn check_whole(
     let concerns_root = relative.as_ref().is_some_and(|it| it.concerns_root);
     findings.extend(relative.map(|relative| relative.finding));
     posekit::check::sort_findings(&mut findings);
-    let mut entries = reader_entries(import_report);
     if concerns_root {
         // The finding says what the reader could only wonder about.
         entries.retain(|entry| entry.code != WarningCode::NonzeroRootOffset.code());
@@ -212,6 +300,8 @@ fn warning_entry(same: &[&Warning]) -> CheckEntry {
     CheckEntry {
         code: first.code.code(),
         severity: match first.code.severity() {
+            // It was read, and yet there is no motion in it.
+            _ if first.code == WarningCode::ValueOutOfRange => Severity::Error,
             report::Severity::Note => Severity::Info,
             report::Severity::Warning => Severity::Warning,
         },

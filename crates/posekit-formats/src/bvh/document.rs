@@ -1,9 +1,11 @@
 //! The BVH document: what a file says, without interpretation.
 
+use super::Gap;
 use std::borrow::Cow;
 use std::ops::Range;
 
-use posekit::motion::Channel;
+use posekit::motion::{Channel, FrameTime};
+use posekit::range::LONGEST_LENGTH;
 use posekit::rotation::EulerOrder;
 
 /// A BVH file: a hierarchy of joints and, usually, frames of channel values.
@@ -58,14 +60,22 @@ pub enum EndName {
 /// The MOTION section.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BvhMotion {
-    /// Seconds from one frame to the next, as the file says; it may be zero or negative if that is
-    /// what the file says.
+    /// Seconds from one frame to the next, as the file says; it may be zero, negative or so small that nothing
+    /// can be divided by it, if that is what the file says. [`frame_time`](Self::frame_time) is what can be
+    /// computed with.
     pub frame_time_secs: f64,
     /// How many frames there are.
     pub frame_count: usize,
     /// The channel values, one frame after another: in a frame the joints' channels follow each other in
     /// the order of [`Bvh::joints`]. Rotations are in degrees, positions in the file's length unit.
     pub values: Vec<f64>,
+}
+
+impl BvhMotion {
+    /// The time between two frames; [none](FrameTime::NONE) where the file says one that cannot be.
+    pub fn frame_time(&self) -> FrameTime {
+        FrameTime::or_none(self.frame_time_secs)
+    }
 }
 
 /// Why a [`Bvh`] cannot be written.
@@ -141,6 +151,31 @@ impl Bvh {
             EulerOrder::new(&axes).unwrap_or(EulerOrder::ZXY)
         };
         self.joints.iter().map(order).collect()
+    }
+
+    /// The time between two frames; [none](FrameTime::NONE) without motion, or where the file says one that
+    /// cannot be.
+    pub fn frame_time(&self) -> FrameTime {
+        let motion = self.motion.as_ref();
+        motion.map_or(FrameTime::NONE, BvhMotion::frame_time)
+    }
+
+    /// The values of the rows of which no motion can be made, since they are not within [`LONGEST_LENGTH`], in order;
+    /// by frame and column.
+    pub fn values_out_of_range(&self) -> Vec<Gap> {
+        let mut found = Vec::new();
+        for (frame, row) in self.rows().enumerate() {
+            // Whole rows at once: there is hardly ever one.
+            let is_in_range = |value: &f64| value.abs() <= LONGEST_LENGTH;
+            if !row.iter().fold(true, |all, value| all & is_in_range(value)) {
+                let beyond = row
+                    .iter()
+                    .enumerate()
+                    .filter(|(_, value)| !is_in_range(value));
+                found.extend(beyond.map(|(column, _)| Gap { frame, column }));
+            }
+        }
+        found
     }
 
     /// How many frames there are; 0 without motion.

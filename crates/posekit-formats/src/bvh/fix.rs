@@ -13,11 +13,12 @@ use std::fmt;
 
 use posekit::check::{CheckConfig, EulerStep, EulerTracker, FrameRange};
 use posekit::motion::Channel;
+use posekit::range::LONGEST_LENGTH;
 use posekit::rotation::Axis;
 
 use super::edit::{EditError, set_frame_time};
 use super::{Bvh, EndName};
-use crate::report::{Import, Location, Severity};
+use crate::report::{Import, Location, Severity, WarningCode};
 
 /// What to do with blanks in the names of joints.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -54,6 +55,8 @@ pub enum ChangeCode {
     FrameTimeSet,
     /// A frame time that cannot be right was left, because nobody said the right one.
     FrameTimeKept,
+    /// Values of which no motion can be made were left.
+    ValueKept,
     /// Values that were no numbers were filled from the frames beside them.
     GapBridged,
     /// Blanks in a name became underscores.
@@ -71,6 +74,7 @@ impl ChangeCode {
             Self::FlipsUnwrapped => "flips-unwrapped",
             Self::FrameTimeSet => "frame-time-set",
             Self::FrameTimeKept => "frame-time-kept",
+            Self::ValueKept => "value-kept",
             Self::GapBridged => "gap-bridged",
             Self::NameBlanks => "name-blanks",
             Self::NameKept => "name-kept",
@@ -120,6 +124,7 @@ pub struct Fixed {
 pub fn fix(bytes: &[u8], import: &Import<Bvh>, config: &FixConfig) -> Result<Fixed, EditError> {
     let mut document = import.document.clone();
     let mut changes = written_right(import);
+    changes.extend(values_kept(import));
     changes.extend(line_ends(bytes));
     changes.extend(frame_time(&mut document, config)?);
     if config.names == NameRepair::BlanksToUnderscores {
@@ -146,7 +151,8 @@ fn frame_time(document: &mut Bvh, config: &FixConfig) -> Result<Option<Change>, 
     let Some(secs) = config.frame_time_secs else {
         let is_possible = |secs: f64| secs > 0.0 && secs < SLOWEST_FRAME_TIME_SECS;
         let kept = old.filter(|&secs| !is_possible(secs)).map(|secs| {
-            let message = format!("a frame time of {secs} s kept: --frame-time sets the right one");
+            let message =
+                format!("a frame time of {secs:?} s kept: --frame-time sets the right one");
             change(ChangeCode::FrameTimeKept, message)
         });
         return Ok(kept);
@@ -154,7 +160,7 @@ fn frame_time(document: &mut Bvh, config: &FixConfig) -> Result<Option<Change>, 
     set_frame_time(document, secs)?;
     let differs = old.filter(|old| old.to_bits() != secs.to_bits());
     Ok(differs.map(|old| {
-        let message = format!("a frame time of {old} s set to {secs} s");
+        let message = format!("a frame time of {old:?} s set to {secs} s");
         change(ChangeCode::FrameTimeSet, message)
     }))
 }
@@ -248,6 +254,9 @@ fn unwrap_joint<'a>(
     })
 }
 
+/// What the reader only noticed, and wrote into the document as it is.
+const KEPT: [WarningCode; 2] = [WarningCode::BadFrameTime, WarningCode::ValueOutOfRange];
+
 /// What the reader put right is right in a file written from the document.
 fn written_right(import: &Import<Bvh>) -> Vec<Change> {
     let warnings = import.report.warnings.iter();
@@ -255,7 +264,7 @@ fn written_right(import: &Import<Bvh>) -> Vec<Change> {
     let repairs = warnings
         .filter(|warning| warning.code.severity() == Severity::Warning && warning.file.is_none());
     repairs
-        .filter(|warning| warning.code != crate::report::WarningCode::BadFrameTime)
+        .filter(|warning| !KEPT.contains(&warning.code))
         .map(|warning| Change {
             code: ChangeCode::WrittenRight,
             joint: None,
@@ -265,6 +274,30 @@ fn written_right(import: &Import<Bvh>) -> Vec<Change> {
             message: format!("{} [{}]", warning.message, warning.code),
         })
         .collect()
+}
+
+/// Values beyond the range that are still there.
+fn values_kept(import: &Import<Bvh>) -> Vec<Change> {
+    let document = &import.document;
+    let rows = document.values_out_of_range().len();
+    let offsets = document.joints.iter().flat_map(|joint| joint.offset);
+    let offsets = offsets.filter(|offset| offset.abs() > LONGEST_LENGTH);
+    let kept = |count: usize, what: &str, remedy: &str| Change {
+        code: ChangeCode::ValueKept,
+        joint: None,
+        frames: None,
+        location: None,
+        count,
+        message: format!(
+            "{count} {what} beyond {LONGEST_LENGTH:e} kept, of which no motion can be made{remedy}"
+        ),
+    };
+    let bridge = ": --bridge-gaps fills them from the frames beside them";
+    let all = [
+        kept(rows, "values of rows", bridge),
+        kept(offsets.count(), "coordinates of OFFSETs", ""),
+    ];
+    all.into_iter().filter(|change| change.count > 0).collect()
 }
 
 fn line_ends(bytes: &[u8]) -> Option<Change> {

@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use gltf::json::Root;
 use posekit::keyframe::BakeConfig;
-use posekit::motion::Motion;
+use posekit::motion::{FrameTime, FrameTimeError, Motion};
+use posekit::range::LONGEST_LENGTH;
 
 use super::json_path::Step;
 use super::{Gltf, GltfAnimation, Notes, Wanted};
@@ -35,11 +36,18 @@ pub enum BakeError {
         /// Those that there are, for people.
         known: String,
     },
-    /// The rate is not a positive number.
-    #[error("{frames_per_sec} frames a second is not a rate")]
-    NoRate {
-        /// The rate.
-        frames_per_sec: f64,
+    /// The rate is none that frames can have.
+    #[error(transparent)]
+    Rate(#[from] FrameTimeError),
+    /// A joint is so far away, between keys, that no motion can be made of it.
+    #[error(
+        "joint `{joint}` is too far away at frame {frame}: it is not within {LONGEST_LENGTH:e}"
+    )]
+    TooFar {
+        /// The joint's unique name.
+        joint: String,
+        /// The frame.
+        frame: usize,
     },
     /// It would take more than [`MAX_BAKED_JOINTS`].
     #[error("{duration_secs} s at {frames_per_sec} frames a second is too long a motion")]
@@ -79,7 +87,7 @@ impl Gltf {
             None => {
                 let skeleton = Arc::clone(&self.skeleton);
                 let roots: Vec<_> = skeleton.roots().collect();
-                Ok(Motion::at_rest(skeleton, 1, 1.0 / RATES[0], roots))
+                Ok(Motion::at_rest(skeleton, 1, FrameTime::of_fps(30), roots))
             }
         }
     }
@@ -167,14 +175,21 @@ impl GltfAnimation {
     /// # Errors
     /// [`BakeError`] when there is no such rate, or the motion would be too long.
     pub fn bake(&self, frames_per_sec: f64) -> Result<Motion, BakeError> {
-        if !frames_per_sec.is_finite() || frames_per_sec <= 0.0 {
-            return Err(BakeError::NoRate { frames_per_sec });
-        }
+        let frame_time = FrameTime::of_rate(frames_per_sec)?;
         let duration_secs = self.duration_secs();
-        let config = BakeConfig::of_range(self.range_secs(), frames_per_sec);
+        let config = BakeConfig::of_range(self.range_secs(), frame_time);
         let joint_count = self.tracks.skeleton().joint_count();
         match config.frame_count.checked_mul(joint_count) {
-            Some(size) if size <= MAX_BAKED_JOINTS => Ok(self.tracks.bake(&config)),
+            Some(size) if size <= MAX_BAKED_JOINTS => {
+                let motion = self.tracks.bake(&config);
+                match motion.first_out_of_range() {
+                    None => Ok(motion),
+                    Some((frame, joint)) => Err(BakeError::TooFar {
+                        joint: motion.skeleton().unique_name(joint).to_owned(),
+                        frame,
+                    }),
+                }
+            }
             _ => Err(BakeError::TooLong {
                 duration_secs,
                 frames_per_sec,

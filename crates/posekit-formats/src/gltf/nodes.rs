@@ -127,16 +127,26 @@ pub(super) fn rig(root: &Root, notes: &mut Notes) -> Result<Rig, ReadError> {
     let skeleton = builder.build().map_err(|error| {
         let kind = match error {
             SkeletonError::NotFinite { .. } => ReadErrorKind::NotFinite,
+            SkeletonError::TooFar { .. } => ReadErrorKind::OutOfRange,
             _ => ReadErrorKind::Unexpected,
+        };
+        let node = match error {
+            SkeletonError::NotFinite { joint, .. }
+            | SkeletonError::TooFar { joint, .. }
+            | SkeletonError::NotUnit { joint, .. } => {
+                joint_of_node.iter().position(|&it| it == Some(joint))
+            }
+            _ => None,
+        };
+        let path = [Step::Key("nodes"), Step::Index(node.unwrap_or_default())];
+        let path = if node.is_some() {
+            &path[..]
+        } else {
+            &path[..1]
         };
         // It has a name in it, which may be long.
         let found: String = error.to_string().chars().take(200).collect();
-        notes.error(
-            kind,
-            &[Step::Key("nodes")],
-            "nodes that make a skeleton",
-            found,
-        )
+        notes.error(kind, path, "nodes that make a skeleton", found)
     })?;
     Ok(Rig {
         skeleton: Arc::new(skeleton),

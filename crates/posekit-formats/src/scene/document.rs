@@ -4,8 +4,11 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3, Vec3};
 use posekit::keyframe::{
-    Animation, EulerTrack, KeyedCamera, KeyedLight, KeyedTransform, RotationTrack, Track,
+    Animation, EulerTrack, KeyValue, KeyedCamera, KeyedLight, KeyedTransform, Property,
+    RotationTrack, Track,
 };
+use posekit::motion::FrameTime;
+use posekit::range::{LONGEST_LENGTH, LONGEST_SECS, are_lengths};
 use posekit::rotation::EulerOrder;
 use posekit::skeleton::{JointId, Skeleton, SkeletonBuilder, SkeletonError};
 
@@ -175,12 +178,18 @@ pub(super) const MOST_FRAMES: f64 = 1e7;
 /// The fastest rate, frames a second.
 pub(super) const FASTEST: f64 = 10_000.0;
 
+/// The time between two frames at a rate that a scene may have.
+pub(super) fn frame_time(frames_per_sec: f64) -> Option<FrameTime> {
+    let time = FrameTime::of_rate(frames_per_sec).ok();
+    time.filter(|_| frames_per_sec <= FASTEST)
+}
+
 /// Why a scene cannot be written: its file would not be read.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SceneWriteError {
-    /// The range is not finite, or ends before it starts.
-    #[error("a scene cannot play from {start_secs:e} s to {end_secs:e} s")]
+    /// The range is not within [`LONGEST_SECS`] of 0, or ends before it starts.
+    #[error("a scene cannot play from {start_secs:?} s to {end_secs:?} s")]
     Range {
         /// Its start.
         start_secs: f64,
@@ -189,7 +198,8 @@ pub enum SceneWriteError {
     },
     /// The rate is not one that a scene may have.
     #[error(
-        "a scene plays at a rate over 0 and at most {FASTEST} frames a second, not at {frames_per_sec:e}"
+        "a scene plays at a rate from {:e} to {FASTEST} frames a second, not at {frames_per_sec:?}",
+        1.0 / LONGEST_SECS
     )]
     Rate {
         /// Frames a second.
@@ -201,9 +211,11 @@ pub enum SceneWriteError {
         /// How many it has.
         frames: f64,
     },
-    /// A number of something that stands in the scene is not finite.
-    #[error("{of} has a number that is not finite")]
-    NotFinite {
+    /// A number of something that stands in the scene is beyond the range of what a scene holds, or not a number.
+    #[error(
+        "{of} has a number that is not within {LONGEST_LENGTH:e}, or a time not within {LONGEST_SECS:e} s"
+    )]
+    OutOfRange {
         /// What has it.
         of: &'static str,
     },
@@ -215,14 +227,15 @@ pub enum SceneWriteError {
 /// [`SceneWriteError`] with the first thing that no reader takes.
 pub fn check(scene: &Scene) -> Result<(), SceneWriteError> {
     let [start_secs, end_secs] = scene.range_secs;
-    if !(start_secs.is_finite() && end_secs.is_finite() && start_secs <= end_secs) {
+    let is_time = |secs: f64| secs.abs() <= LONGEST_SECS;
+    if !(is_time(start_secs) && is_time(end_secs) && start_secs <= end_secs) {
         return Err(SceneWriteError::Range {
             start_secs,
             end_secs,
         });
     }
     let frames_per_sec = scene.frames_per_sec;
-    if !(frames_per_sec > 0.0 && frames_per_sec <= FASTEST) {
+    if frame_time(frames_per_sec).is_none() {
         return Err(SceneWriteError::Rate { frames_per_sec });
     }
     let frames = (end_secs - start_secs) * frames_per_sec;
@@ -230,10 +243,11 @@ pub fn check(scene: &Scene) -> Result<(), SceneWriteError> {
         return Err(SceneWriteError::TooLong { frames });
     }
     if let SkeletonSource::Inline(joints) = &scene.skeleton {
-        let is_finite =
-            |joint: &InlineJoint| joint.translation.is_finite() && joint.rotation.is_finite();
-        if !joints.iter().all(is_finite) {
-            return Err(SceneWriteError::NotFinite {
+        let is_in_range = |joint: &InlineJoint| {
+            are_lengths(joint.translation.to_array()) && are_lengths(joint.rotation.to_array())
+        };
+        if !joints.iter().all(is_in_range) {
+            return Err(SceneWriteError::OutOfRange {
                 of: "a joint at rest",
             });
         }
@@ -242,12 +256,61 @@ pub fn check(scene: &Scene) -> Result<(), SceneWriteError> {
         let clip = layer.clip_secs.unwrap_or_default();
         [layer.start_secs, clip[0], clip[1]]
     });
-    if !layers.into_iter().all(f64::is_finite) {
-        return Err(SceneWriteError::NotFinite {
+    if !layers.into_iter().all(is_time) {
+        return Err(SceneWriteError::OutOfRange {
             of: "a motion's time",
         });
     }
-    Ok(())
+    let surroundings = [
+        ("a camera", scene.cameras.iter().all(Camera::is_in_range)),
+        ("a light", scene.lights.iter().all(Light::is_in_range)),
+        ("a prop", scene.props.iter().all(Prop::is_in_range)),
+    ];
+    match surroundings.into_iter().find(|(_, in_range)| !in_range) {
+        Some((of, _)) => Err(SceneWriteError::OutOfRange { of }),
+        None => Ok(()),
+    }
+}
+
+/// Whether a value is one that a key may have. What is keyed was held against that already.
+fn in_range<V: KeyValue>(property: &Property<V>) -> bool {
+    match property {
+        Property::Fixed(value) => Track::constant(*value).is_ok(),
+        Property::Keyed(_) => true,
+    }
+}
+
+impl Camera {
+    fn is_in_range(&self) -> bool {
+        let KeyedCamera {
+            position,
+            target,
+            vertical_fov_deg,
+        } = &self.view;
+        in_range(position) && in_range(target) && in_range(vertical_fov_deg)
+    }
+}
+
+impl Light {
+    fn is_in_range(&self) -> bool {
+        let KeyedLight {
+            position,
+            color,
+            strength,
+        } = &self.shine;
+        in_range(position) && in_range(color) && in_range(strength)
+    }
+}
+
+impl Prop {
+    fn is_in_range(&self) -> bool {
+        let KeyedTransform {
+            translation,
+            rotation,
+            scale,
+        } = &self.transform;
+        in_range(translation) && in_range(rotation) && in_range(scale)
+    }
 }
 
 impl Scene {

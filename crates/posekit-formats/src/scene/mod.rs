@@ -39,7 +39,7 @@ pub use files::{AUTHORED_WALK_NAME, MotionFileError, SAMPLE_PREFIX, import_of, s
 pub use read::{SceneProblem, SceneProblemKind, SceneReadError, read, read_with_warnings};
 pub use shot::{Shot, ShotError};
 pub(crate) use write::quoted;
-pub use write::write;
+pub use write::{WriteError, write, write_with_tracks};
 
 /// What the file says of itself in `format`.
 pub const FORMAT: &str = "posekit scene";

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use posekit::keyframe::{Animation, BakeConfig};
-use posekit::motion::Motion;
+use posekit::motion::{FrameTime, Motion};
 use posekit::pose::LocalPose;
 use posekit::skeleton::{JointId, Skeleton, SkeletonError};
 
@@ -17,7 +17,7 @@ pub struct Shot {
     animation: Animation,
     layers: Vec<Layer>,
     range_secs: [f64; 2],
-    frames_per_sec: f64,
+    frame_time: FrameTime,
 }
 
 /// A motion that plays on the scene's skeleton.
@@ -94,7 +94,7 @@ impl Shot {
             animation,
             layers,
             range_secs: scene.range_secs,
-            frames_per_sec: scene.frames_per_sec,
+            frame_time: FrameTime::of_rate(scene.frames_per_sec).unwrap_or(FrameTime::NONE),
         })
     }
 
@@ -127,12 +127,13 @@ impl Shot {
         }
     }
 
-    /// The motion of the scene's time range at its own rate, or at another.
+    /// The motion of the scene's time range at its own frame time, or at another: its start alone where a scene that was
+    /// made by hand has a rate that cannot be.
     ///
     /// Its translated joints are the roots and those that a motion or a key moves.
-    pub fn bake(&self, frames_per_sec: Option<f64>) -> Motion {
-        let rate = frames_per_sec.unwrap_or(self.frames_per_sec);
-        let config = BakeConfig::of_range(self.range_secs, rate);
+    pub fn bake(&self, frame_time: Option<FrameTime>) -> Motion {
+        let frame_time = frame_time.unwrap_or(self.frame_time);
+        let config = BakeConfig::of_range(self.range_secs, frame_time);
         let mut moving: Vec<JointId> = self.skeleton.roots().collect();
         moving.extend(self.animation.translations().map(|(joint, _)| joint));
         for layer in &self.layers {
@@ -141,8 +142,8 @@ impl Shot {
             moving.extend(theirs.map(|&(_, to)| to));
         }
         let skeleton = Arc::clone(&self.skeleton);
-        let (frames, step) = (config.frame_count, config.frame_time_secs);
-        let mut motion = Motion::at_rest(skeleton, frames, step, moving);
+        let (frames, step) = (config.frame_count, frame_time.secs());
+        let mut motion = Motion::at_rest(skeleton, frames, frame_time, moving);
         let mut pose = LocalPose::rest(&self.skeleton);
         for (frame, count) in (0..frames).zip(0_u32..) {
             self.sample_into(config.start_secs + f64::from(count) * step, &mut pose);

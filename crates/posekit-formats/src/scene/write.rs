@@ -1,19 +1,69 @@
 //! A scene as text.
 
-use std::fmt::Write;
+use std::fmt::Write as _;
+use std::io::{self, Write};
 
 use glam::{DQuat, DVec3};
 use posekit::keyframe::{
     Extrapolation, Handle, HandlePair, Interpolation, KeyValue, Keyframe, Property, Tangents, Track,
 };
 
-use super::document::{EulerNotation, JointValues, Scene, SkeletonSource};
+use super::document::{
+    EulerNotation, JointTrack, JointValues, Scene, SceneWriteError, SkeletonSource, check,
+};
 use super::{FORMAT, VERSION};
 use crate::number_text::NumberText;
 
+/// How much text is gathered before it goes out.
+const CHUNK_BYTES: usize = 1 << 16;
+
 /// The bytes of a scene's file: always the same for the same scene.
-pub fn write(scene: &Scene) -> Vec<u8> {
-    let mut text = Text::default();
+///
+/// # Errors
+/// [`SceneWriteError`] when the scene has a number that its file may not have, so that it could not be read again
+/// ([`check()`]).
+pub fn write(scene: &Scene) -> Result<Vec<u8>, SceneWriteError> {
+    check(scene)?;
+    let mut bytes = Vec::new();
+    let none = std::iter::empty();
+    // Writing to memory does not fail, and there is no track that could.
+    let _ = write_checked(scene, none, &mut bytes);
+    Ok(bytes)
+}
+
+/// Why a scene was not written.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum WriteError {
+    /// Its file could not be read again.
+    #[error(transparent)]
+    Scene(#[from] SceneWriteError),
+    /// The bytes could not be written.
+    #[error(transparent)]
+    Io(#[from] io::Error),
+}
+
+/// Writes a scene's file with more tracks after its own, each taken when those before it are written: many keys are
+/// written in the memory that one track takes.
+///
+/// # Errors
+/// [`WriteError`] when the scene has a number that its file may not have (then nothing is written), `out` cannot be
+/// written, or a track is an error itself.
+pub fn write_with_tracks(
+    scene: &Scene,
+    tracks: impl IntoIterator<Item = io::Result<JointTrack>>,
+    out: &mut dyn Write,
+) -> Result<(), WriteError> {
+    check(scene)?;
+    Ok(write_checked(scene, tracks, out)?)
+}
+
+fn write_checked(
+    scene: &Scene,
+    tracks: impl IntoIterator<Item = io::Result<JointTrack>>,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let mut text = Text::to(out);
     text.line(&format!("format = \"{FORMAT}\""));
     text.line(&format!("version = {VERSION}"));
     if !scene.title.is_empty() {
@@ -35,9 +85,10 @@ pub fn write(scene: &Scene) -> Vec<u8> {
         }
     }
     for track in &scene.tracks {
-        text.head("[[track]]");
-        text.field("joint", &quoted(&track.joint));
-        text.joint_values(&track.values);
+        text.joint_track(track);
+    }
+    for track in tracks {
+        text.joint_track(&track?);
     }
     for camera in &scene.cameras {
         text.named("camera", &camera.name);
@@ -76,46 +127,49 @@ pub fn write(scene: &Scene) -> Vec<u8> {
             ],
         );
     }
-    text.out.into_bytes()
+    text.finish()
 }
 
-#[derive(Default)]
-struct Text {
+struct Text<'a> {
+    /// What is to go out.
     out: String,
     numbers: NumberText,
+    sink: &'a mut dyn Write,
+    /// The first thing that went wrong; nothing is written after it.
+    result: io::Result<()>,
 }
 
 /// A property of any kind, as the writer sees it.
 trait Writable {
     /// `None` for a fixed one, which is a field; a keyed one is a table of its own.
-    fn fixed(&self, text: &mut Text) -> Option<String>;
-    fn keyed(&self, text: &mut Text);
+    fn fixed(&self, text: &mut Text<'_>) -> Option<String>;
+    fn keyed(&self, text: &mut Text<'_>);
 }
 
 /// The numbers that a value or a slope is made of.
 trait Components: KeyValue {
-    fn components(self, text: &mut Text) -> String;
+    fn components(self, text: &mut Text<'_>) -> String;
 
     /// A handle as pairs of seconds and value, seen from its key; `sign` is -1 for the one before the key.
-    fn handle(handle: Handle<Self>, sign: f64, text: &mut Text) -> String;
+    fn handle(handle: Handle<Self>, sign: f64, text: &mut Text<'_>) -> String;
 }
 
 impl Components for f64 {
-    fn components(self, text: &mut Text) -> String {
+    fn components(self, text: &mut Text<'_>) -> String {
         text.number(self)
     }
 
-    fn handle(handle: Handle<Self>, sign: f64, text: &mut Text) -> String {
+    fn handle(handle: Handle<Self>, sign: f64, text: &mut Text<'_>) -> String {
         text.numbers(&[handle.secs * sign, handle.value])
     }
 }
 
 impl Components for DVec3 {
-    fn components(self, text: &mut Text) -> String {
+    fn components(self, text: &mut Text<'_>) -> String {
         text.numbers(&self.to_array())
     }
 
-    fn handle(handle: Handle<Self>, sign: f64, text: &mut Text) -> String {
+    fn handle(handle: Handle<Self>, sign: f64, text: &mut Text<'_>) -> String {
         let pairs = [0, 1, 2].map(|axis| {
             let pair = [handle.secs[axis] * sign, handle.value[axis]];
             text.numbers(&pair)
@@ -125,35 +179,65 @@ impl Components for DVec3 {
 }
 
 impl Components for DQuat {
-    fn components(self, text: &mut Text) -> String {
+    fn components(self, text: &mut Text<'_>) -> String {
         text.numbers(&self.to_array())
     }
 
     /// A track of quaternions has no such handles.
-    fn handle(handle: Handle<Self>, _sign: f64, text: &mut Text) -> String {
+    fn handle(handle: Handle<Self>, _sign: f64, text: &mut Text<'_>) -> String {
         handle.value.components(text)
     }
 }
 
 impl<V: Components> Writable for Property<V> {
-    fn fixed(&self, text: &mut Text) -> Option<String> {
+    fn fixed(&self, text: &mut Text<'_>) -> Option<String> {
         match self {
             Self::Fixed(value) => Some(value.components(text)),
             Self::Keyed(_) => None,
         }
     }
 
-    fn keyed(&self, text: &mut Text) {
+    fn keyed(&self, text: &mut Text<'_>) {
         if let Self::Keyed(track) = self {
             text.track(track, |key, text| key.value.components(text));
         }
     }
 }
 
-impl Text {
+impl<'a> Text<'a> {
+    fn to(sink: &'a mut dyn Write) -> Self {
+        Self {
+            out: String::new(),
+            numbers: NumberText::default(),
+            sink,
+            result: Ok(()),
+        }
+    }
+
     fn line(&mut self, line: &str) {
         self.out.push_str(line);
         self.out.push('\n');
+        if self.out.len() >= CHUNK_BYTES {
+            self.flush();
+        }
+    }
+
+    fn flush(&mut self) {
+        if self.result.is_ok() {
+            self.result = self.sink.write_all(self.out.as_bytes());
+        }
+        self.out.clear();
+    }
+
+    fn finish(mut self) -> io::Result<()> {
+        self.flush();
+        self.result
+    }
+
+    fn joint_track(&mut self, track: &JointTrack) {
+        self.head("[[track]]");
+        self.field("joint", &quoted(&track.joint));
+        self.joint_values(&track.values);
     }
 
     fn head(&mut self, head: &str) {

@@ -2,6 +2,7 @@
 
 use glam::{DQuat, DVec3};
 use posekit::mechanism::{Follow, Freedom, Mechanism, MechanismError, MechanismJoint, ValueRange};
+use posekit::range::{LONGEST_LENGTH, are_lengths};
 use posekit::skeleton::{JointId, SkeletonBuilder, SkeletonError};
 
 use super::{Urdf, UrdfJoint, UrdfJointKind, UrdfOrigin};
@@ -28,8 +29,8 @@ impl UpAxis {
     }
 }
 
-/// Why no mechanism could be made of a document; one from [`read`](super::read()) has only numbers
-/// beyond the range of `f32`.
+/// Why no mechanism could be made of a document; one from [`read`](super::read()) has only
+/// origins that are too far away.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RobotError {
@@ -94,7 +95,7 @@ impl Urdf {
     /// [`joints_from_root`](Self::joints_from_root), whose frame is that of the link it carries.
     ///
     /// # Errors
-    /// If a number is beyond the range of `f32`, or the document breaks the invariants that [`Urdf`]
+    /// If an origin is not within [`LONGEST_LENGTH`], or the document breaks the invariants that [`Urdf`]
     /// states.
     pub fn to_robot(&self, up: UpAxis) -> Result<Mechanism, RobotError> {
         let order = self.joints_from_root();
@@ -114,8 +115,17 @@ impl Urdf {
             range: ValueRange::FREE,
             follows: None,
         });
-        for &index in &order {
+        for (place, &index) in (1..).zip(&order) {
             let joint = &self.joints[index];
+            let origin = joint.origin.xyz.into_iter();
+            if let Some(value) = origin.clone().find(|&value| !are_lengths([value])) {
+                // The file's number: `f32` may have none for it.
+                return Err(RobotError::Skeleton(SkeletonError::TooFar {
+                    joint: place,
+                    name: joint.name.clone(),
+                    value,
+                }));
+            }
             let id = builder.oriented_joint(
                 joint.name.as_str(),
                 joint_of_link[joint.parent],
@@ -154,9 +164,16 @@ fn described(joint: &UrdfJoint) -> MechanismJoint {
         UrdfJointKind::Revolute | UrdfJointKind::Prismatic
     );
     let range = match joint.limit {
+        // Bounds that nothing reaches are the way in which some files say that there is none.
         Some(limit) if is_limited => ValueRange {
-            lower: limit.lower,
-            upper: limit.upper,
+            lower: match limit.lower {
+                lower if lower < -LONGEST_LENGTH => f64::NEG_INFINITY,
+                lower => lower.min(LONGEST_LENGTH),
+            },
+            upper: match limit.upper {
+                upper if upper > LONGEST_LENGTH => f64::INFINITY,
+                upper => upper.max(-LONGEST_LENGTH),
+            },
         },
         _ => ValueRange::FREE,
     };

@@ -1,8 +1,11 @@
 //! Motions as the wild writes them, each with the reason it is read as it is.
 
 use crate::bvh_text::{HEAD, assert_at, assert_codes, import, values_with, with_rows};
-use posekit_formats::bvh;
-use posekit_formats::report::WarningCode as Code;
+use posekit::check::{CheckConfig, Severity};
+use posekit::motion::PositionPolicy;
+use posekit_formats::bvh::{self, ChangeCode, CheckEntry, FixConfig, ReadOptions, RowParser};
+use posekit_formats::report::{ImportReport, WarningCode as Code};
+use std::ops::ControlFlow;
 
 const EIGHT: [f64; 8] = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0];
 
@@ -36,7 +39,7 @@ fn frames_and_frame_time_with_any_spacing() {
 #[test]
 fn numbers_in_every_notation() {
     let rows = ".0083333 1.2E-05 -.5e+1 +7.\n-0 0000.10 1e22 123456789012345678901234567890\n";
-    let values = values_with(with_rows(2, rows), &[]);
+    let values = values_with(with_rows(2, rows), &[Code::ValueOutOfRange]);
     assert_eq!(
         values,
         [
@@ -208,7 +211,7 @@ fn header_lines_that_are_missing_or_make_no_sense() {
 /// The document says what the file says; whoever plays it needs a time that passes.
 #[test]
 fn a_frame_time_that_does_not_pass() {
-    for time in ["0", "-0.1"] {
+    for time in ["0", "-0.1", "5e-324", "1e-10", "1e10", "1e300"] {
         let import = import(format!("{HEAD}Frames: 1\nFrame Time: {time}\n1 2 3 4\n"));
         assert_at(&import, Code::BadFrameTime, 18, 13, "kept");
         assert_eq!(
@@ -216,6 +219,138 @@ fn a_frame_time_that_does_not_pass() {
             time.parse::<f64>().unwrap()
         );
     }
+}
+
+/// Whoever plays it has one that can be divided by, or none.
+#[test]
+fn a_frame_time_that_cannot_be_is_none() {
+    for (time, secs) in [("5e-324", 0.0), ("-1", 0.0), ("1e10", 0.0), ("1e-9", 1e-9)] {
+        let import = import(format!("{HEAD}Frames: 1\nFrame Time: {time}\n1 2 3 4\n"));
+        let motion = import.document.to_motion(PositionPolicy::Replace).unwrap();
+        assert_eq!(motion.frame_time_secs(), secs);
+        let found = bvh::check(
+            &import.document,
+            &import.report,
+            PositionPolicy::Replace,
+            &CheckConfig::default(),
+        );
+        let place = found
+            .unwrap()
+            .into_iter()
+            .find(|it| it.code == "bad-frame-time");
+        let place = place.map(|it| it.place.unwrap().to_string());
+        let wanted = (secs == 0.0).then(|| "line 18, column 13".to_owned());
+        assert_eq!(place, wanted);
+    }
+}
+
+/// Values that no motion can be made of are kept, and every one of them is told with its place, whatever
+/// parser meets it.
+#[test]
+fn values_beyond_the_range_have_places() {
+    let head = HEAD.replace("0 5.5 0", "0 1e300 -2e12");
+    let text = format!("{head}Frames: 2\nFrame Time: 0.1\n1 2 3 -1e39\n5 1000000000001 7 1e12\n");
+    for row_parser in [RowParser::Fastest, RowParser::Portable, RowParser::Careful] {
+        let options = ReadOptions {
+            row_parser,
+            ..ReadOptions::default()
+        };
+        let import =
+            bvh::read_with(text.as_bytes(), options, |_| ControlFlow::Continue(())).unwrap();
+        assert_codes(&import, &[Code::ValueOutOfRange]);
+        let places = import.report.warnings.iter().map(|it| it.place.to_string());
+        assert_eq!(
+            places.collect::<Vec<_>>(),
+            [
+                "line 8, column 14",
+                "line 8, column 20",
+                "line 19, column 7",
+                "line 20, column 3"
+            ]
+        );
+        let motion = import.document.motion.as_ref().unwrap();
+        assert_eq!(motion.values[3], -1e39);
+        let gaps = import.document.values_out_of_range();
+        let gaps: Vec<_> = gaps.iter().map(|gap| (gap.frame, gap.column)).collect();
+        assert_eq!(gaps, [(0, 3), (1, 1)]);
+        let error = import
+            .document
+            .to_motion(PositionPolicy::Replace)
+            .unwrap_err();
+        assert!(
+            error.to_string().contains("`Chest` has an offset of 1e300"),
+            "{error}"
+        );
+    }
+}
+
+/// The decimal comma that the rows decide is noted although they are read twice.
+#[test]
+fn rows_that_are_read_twice_keep_their_warnings() {
+    let import = import(with_rows(1, "1,5 2 3 1e39\n"));
+    assert_codes(&import, &[Code::DecimalComma, Code::ValueOutOfRange]);
+    assert_eq!(import.document.row(0)[0], 1.5);
+}
+
+/// A check finds them, by joint, frame and place, and checks the rest of the file.
+#[test]
+fn a_check_takes_values_beyond_the_range() {
+    let row = |frame: usize, x: f64| format!("{x} 2 3 {}\n", frame as f64);
+    let rows: String = (0..40)
+        .map(|f| row(f, if f == 7 || f == 9 { 1e39 } else { 0.5 }))
+        .collect();
+    let import = import(with_rows(40, &rows));
+    let policy = PositionPolicy::Replace;
+    let error = import.document.to_motion(policy).unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .contains("Xposition of joint `Hips` is 1e39 at frame 7"),
+        "{error}"
+    );
+    let config = CheckConfig::default();
+    let found = bvh::check(&import.document, &import.report, policy, &config).unwrap();
+    let [beyond] = found
+        .iter()
+        .filter(|it| it.code == "value-out-of-range")
+        .collect::<Vec<_>>()[..]
+    else {
+        panic!("{found:?}");
+    };
+    assert_eq!(beyond.severity, Severity::Error);
+    assert_eq!(beyond.joints, ["Hips"]);
+    assert_eq!(beyond.frames.map(|it| (it.first, it.last)), Some((7, 9)));
+    assert_eq!(
+        beyond.place.as_ref().unwrap().to_string(),
+        "line 26, column 1"
+    );
+    assert_eq!(beyond.value, 2.0);
+    let finite = |it: &CheckEntry| it.value.is_finite() && !it.message.contains("inf");
+    assert!(found.iter().all(finite), "{found:?}");
+    // Without a report there is no place, and the finding is there all the same.
+    let found = bvh::check(&import.document, &ImportReport::default(), policy, &config).unwrap();
+    assert!(
+        found
+            .iter()
+            .any(|it| it.code == "value-out-of-range" && it.frames.is_some())
+    );
+}
+
+/// A repair keeps them and says so, or fills them where that is asked for.
+#[test]
+fn a_repair_keeps_values_beyond_the_range() {
+    let text = with_rows(3, "1 2 3 4\n1e39 2 3 4\n3 2 3 4\n");
+    let mut import = import(&text);
+    let config = FixConfig::default();
+    let fixed = bvh::fix(text.as_bytes(), &import, &config).unwrap();
+    let codes: Vec<_> = fixed.changes.iter().map(|change| change.code).collect();
+    assert_eq!(codes, [ChangeCode::ValueKept]);
+    assert_eq!(fixed.document, import.document);
+    let gaps = import.document.values_out_of_range();
+    bvh::bridge_gaps(&mut import.document, &gaps, 1).unwrap();
+    assert_eq!(import.document.row(1), [2.0, 2.0, 3.0, 4.0]);
+    let fixed = bvh::fix(text.as_bytes(), &import, &config).unwrap();
+    assert_eq!(fixed.changes, []);
 }
 
 /// Room for values is what the rows need, or what the bytes could hold: eight bytes for every two.

@@ -45,7 +45,12 @@ fn what_makes_no_tree_is_refused_with_its_place() {
         (
             r#"{"translation": [1e300, 0, 0]}"#,
             ReadErrorKind::NotFinite,
-            "nodes",
+            "nodes[0]",
+        ),
+        (
+            r#"{"children": [1]}, {"translation": [0, 0, 1e20]}"#,
+            ReadErrorKind::OutOfRange,
+            "nodes[1]",
         ),
         (
             r#"{}, {"rotation": [0, "no", 0, 1]}"#,

@@ -1,7 +1,9 @@
 //! What the URDF reader makes of files that can be read, and what it says about the liberties it takes.
 
+use posekit::check::Severity;
+use posekit::mechanism::ValueRange;
 use posekit_formats::report::{Import, WarningCode};
-use posekit_formats::urdf::{self, Urdf, UrdfJointKind, UrdfShape};
+use posekit_formats::urdf::{self, UpAxis, Urdf, UrdfJointKind, UrdfShape};
 
 fn read(body: &str) -> Import<Urdf> {
     let text = format!("<robot name=\"r\">{body}</robot>");
@@ -378,4 +380,33 @@ fn the_samples_need_no_repair() {
     }
     assert_eq!(names, ["planar2", "arm6", "arm7"]);
     assert_eq!(urdf::sample::by_name("arm8"), None);
+}
+
+/// An origin that no robot can be made of is kept and told with its place; bounds that nothing reaches are none.
+#[test]
+fn origins_and_limits_beyond_the_range() {
+    let import = joint(
+        "prismatic",
+        "<limit lower='-1e16' upper='1e300'/>\n<origin xyz='0 1e39 0'/>",
+    );
+    assert_eq!(codes(&import), ["value-out-of-range"]);
+    assert_eq!(import.report.warnings[0].place.location().unwrap().line, 3);
+    let found = urdf::check(&import.document, &import.report);
+    let found = found
+        .iter()
+        .find(|it| it.code == "value-out-of-range")
+        .unwrap();
+    assert_eq!(found.severity, Severity::Error);
+    let error = import.document.to_robot(UpAxis::Y).unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .contains("joint 1 `j` has an offset of 1e39"),
+        "{error}"
+    );
+
+    let import = joint("prismatic", "<limit lower='-1e16' upper='1e300'/>");
+    assert_eq!(codes(&import), [""; 0]);
+    let robot = import.document.to_robot(UpAxis::Y).unwrap();
+    assert_eq!(robot.value_ranges(), [ValueRange::FREE]);
 }

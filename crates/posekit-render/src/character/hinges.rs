@@ -57,6 +57,7 @@ mod tests {
     use std::sync::Arc;
 
     use glam::Quat;
+    use posekit::motion::FrameTime;
     use posekit::skeleton::SkeletonBuilder;
 
     use super::*;
@@ -68,7 +69,7 @@ mod tests {
         let hinge = b.joint("hinge", Some(root), Vec3::Y);
         let ball = b.joint("ball", Some(hinge), Vec3::Y);
         let skeleton = Arc::new(b.build().unwrap());
-        let mut motion = Motion::at_rest(skeleton, 20, 0.1, []);
+        let mut motion = Motion::at_rest(skeleton, 20, FrameTime::of_fps(10), []);
         let axis = Vec3::new(0.6, 0.0, 0.8);
         for frame in 0..20 {
             let t = frame as f32 / 19.0;

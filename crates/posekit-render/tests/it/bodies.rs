@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::Vec3;
 
 use posekit::body::{Anatomy, NoAnatomy};
-use posekit::motion::Motion;
+use posekit::motion::{FrameTime, Motion};
 use posekit::pose::GlobalPose;
 use posekit::sample::{ArmConfig, arm};
 use posekit::skeleton::{Skeleton, SkeletonBuilder};
@@ -120,7 +120,7 @@ fn a_person_is_found_in_any_pose() {
 #[test]
 fn the_trunk_has_no_seam() {
     let skeleton = Arc::new(person(1.0));
-    let motion = Motion::at_rest(Arc::clone(&skeleton), 1, 1.0, []);
+    let motion = Motion::at_rest(Arc::clone(&skeleton), 1, FrameTime::of_fps(1), []);
     let mesh = body_mesh(&skeleton, &Proportions::of(&motion));
     let (hips, chest) = (
         skeleton.find("hips").unwrap().index(),

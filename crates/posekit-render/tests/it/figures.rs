@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{Quat, Vec3};
 
-use posekit::motion::Motion;
+use posekit::motion::{FrameTime, Motion};
 use posekit::skeleton::{JointId, Skeleton, SkeletonBuilder};
 use posekit_render::stage::{Actor, SkeletonStyle, Stage, StageOptions};
 use posekit_render::theme::CharacterColors;
@@ -46,7 +46,7 @@ pub(crate) fn person(unit: f32) -> Skeleton {
 pub(crate) fn waving(unit: f32) -> Arc<Motion> {
     let skeleton = Arc::new(person(unit));
     let arm = skeleton.find("leftShoulder").unwrap();
-    let mut motion = Motion::at_rest(skeleton, 30, 1.0 / 30.0, [JointId::new(0)]);
+    let mut motion = Motion::at_rest(skeleton, 30, FrameTime::of_fps(30), [JointId::new(0)]);
     for frame in 0..30 {
         let angle = 1.2 * libm::sinf(frame as f32 * std::f32::consts::TAU / 29.0);
         motion.set_rotation(frame, arm, Quat::from_axis_angle(Vec3::Z, angle));

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use posekit::motion::Motion;
+use posekit::motion::{FrameTime, Motion};
 use posekit::skeleton::JointId;
 use posekit_render::camera::View;
 use posekit_render::cpu;
@@ -73,7 +73,7 @@ fn the_whole_motion_is_framed() {
 /// A person gliding along Z for twenty metres.
 fn gliding() -> std::sync::Arc<Motion> {
     let skeleton = std::sync::Arc::new(person(1.0));
-    let mut motion = Motion::at_rest(skeleton, 200, 0.05, [JointId::new(0)]);
+    let mut motion = Motion::at_rest(skeleton, 200, FrameTime::of_fps(20), [JointId::new(0)]);
     for frame in 0..200 {
         let p = Vec3::new(0.0, 0.95, frame as f32 * 0.1);
         motion.set_translation(frame, JointId::new(0), p);
@@ -148,7 +148,7 @@ fn the_feet_stand_on_the_floor() {
 fn ghosts_of_keys_stand_at_their_times_in_two_colours() {
     let skeleton = std::sync::Arc::new(person(1.0));
     let root = JointId::new(0);
-    let mut motion = Motion::at_rest(skeleton, 21, 0.1, [root]);
+    let mut motion = Motion::at_rest(skeleton, 21, FrameTime::of_fps(10), [root]);
     for frame in 0..21 {
         motion.set_translation(frame, root, Vec3::new(0.0, 0.95, 0.1 * frame as f32));
     }
@@ -191,7 +191,7 @@ fn an_empty_stage_is_an_empty_room() {
 fn ghosts_before_the_figure_are_thin_veils() {
     let skeleton = std::sync::Arc::new(person(1.0));
     let root = JointId::new(0);
-    let mut motion = Motion::at_rest(skeleton, 21, 0.1, [root]);
+    let mut motion = Motion::at_rest(skeleton, 21, FrameTime::of_fps(10), [root]);
     for frame in 0..21 {
         motion.set_translation(frame, root, Vec3::new(0.0, 0.95, 0.1 * frame as f32));
     }

@@ -101,7 +101,10 @@ impl Viewer {
         let Some(authored) = self.session.authored_of(id) else {
             return;
         };
-        let bytes = scene::write(authored.scene());
+        let bytes = match scene::write(authored.scene()) {
+            Ok(bytes) => bytes,
+            Err(error) => return self.hand_over(ctx, Err(format!("not saved: {error}"))),
+        };
         let parcel = files::Parcel {
             name: name.clone(),
             kind: "posekit scene",
@@ -158,7 +161,8 @@ impl Viewer {
         use std::io::Write as _;
         let authored = self.session.authored_of(id).ok_or("it is closed")?;
         let folder = path.parent().unwrap_or(std::path::Path::new("/"));
-        let bytes = scene::write(&place::written(authored.scene(), folder));
+        let bytes = scene::write(&place::written(authored.scene(), folder))
+            .map_err(|error| format!("not saved: {error}"))?;
         // Nothing takes the place of a good file that could not be opened again.
         scene::read(&bytes).map_err(|error| format!("not saved: {error}"))?;
         let written: std::io::Result<()> = files::write_beside(path, |file| file.write_all(&bytes));

@@ -6,11 +6,11 @@ use std::sync::Arc;
 use glam::Vec3;
 use posekit::check::{CheckConfig, Finding, check_channels, check_motion};
 use posekit::figure::{UpAxis, guess_up};
-use posekit::motion::{GlobalMotion, Motion, PositionPolicies};
+use posekit::motion::{FrameTime, GlobalMotion, Motion, PositionPolicies};
 use posekit::pose::{GlobalPose, LocalPose, forward_kinematics};
 use posekit::rotation::EulerOrder;
-use posekit::skeleton::{JointId, Skeleton, SkeletonError};
-use posekit_formats::bvh::{self, Bvh};
+use posekit::skeleton::{JointId, Skeleton};
+use posekit_formats::bvh::{self, Bvh, MotionError};
 use posekit_formats::report::{Import, ImportReport};
 
 /// Where a clip came from.
@@ -77,8 +77,8 @@ impl Reading {
     /// The motion of a document, stood on Y.
     ///
     /// # Errors
-    /// If the document makes no skeleton.
-    pub fn motion_of(self, document: &Bvh) -> Result<Motion, SkeletonError> {
+    /// If the document makes no skeleton or no motion.
+    pub fn motion_of(self, document: &Bvh) -> Result<Motion, MotionError> {
         Ok(self.stood(document.to_motion(self.positions)?))
     }
 
@@ -117,12 +117,12 @@ impl Clip {
     /// A clip of a BVH document.
     ///
     /// # Errors
-    /// If the document makes no skeleton.
+    /// If the document makes no skeleton or no motion.
     pub fn from_bvh(
         name: impl Into<String>,
         source: Source,
         import: Import<Bvh>,
-    ) -> Result<Self, SkeletonError> {
+    ) -> Result<Self, MotionError> {
         let motion = import.document.to_motion(PositionPolicies::default())?;
         let reading = Reading::seen_in(&motion);
         let motion = reading.stood(motion);
@@ -133,8 +133,8 @@ impl Clip {
     /// The same clip, its numbers read in another way. Edits stay; findings are to be looked for anew.
     ///
     /// # Errors
-    /// If the document makes no skeleton.
-    pub fn read_as(&self, reading: Reading) -> Result<Self, SkeletonError> {
+    /// If the document makes no skeleton or no motion.
+    pub fn read_as(&self, reading: Reading) -> Result<Self, MotionError> {
         let motion = reading.motion_of(&self.document)?;
         Ok(Self {
             reading,
@@ -219,12 +219,7 @@ impl Clip {
     /// Frames a second; 0 where the file's frame time is not positive.
     #[must_use]
     pub fn fps(&self) -> f64 {
-        let frame_time = self.motion.frame_time_secs();
-        if frame_time > 0.0 {
-            1.0 / frame_time
-        } else {
-            0.0
-        }
+        self.motion.frame_time().frames_per_sec().unwrap_or(0.0)
     }
 
     /// The local pose at a time.
@@ -298,7 +293,7 @@ pub fn rest_motion(motion: &Motion, time_secs: f64, place: Vec3) -> Motion {
 pub fn still(skeleton: &Arc<Skeleton>, pose: &LocalPose) -> Motion {
     let roots: Vec<_> = skeleton.roots().collect();
     let pose = pose.clone();
-    Motion::from_poses(Arc::clone(skeleton), 1.0 / 30.0, roots, &[pose])
+    Motion::from_poses(Arc::clone(skeleton), FrameTime::of_fps(30), roots, &[pose])
 }
 
 /// Everything suspicious in a clip.

@@ -39,17 +39,18 @@ pub struct Kept {
 }
 
 impl Kept {
-    /// What a scene is kept as.
-    fn text_of(name: &str, authored: &Authored) -> String {
+    /// What a scene is kept as; `None` for one that could not be opened again.
+    fn text_of(name: &str, authored: &Authored) -> Option<String> {
         let path = authored.path().and_then(|path| path.to_str());
-        let text = String::from_utf8_lossy(&scene::write(authored.scene())).into_owned();
+        let bytes = scene::write(authored.scene()).ok()?;
+        let text = String::from_utf8_lossy(&bytes);
         // Names of files may hold a line's end; there it would end the comment.
         let flat = |text: &str| text.replace(['\n', '\r'], " ");
-        format!(
+        Some(format!(
             "{HEAD}\n# name: {}\n# path: {}\n{text}",
             flat(name),
             flat(path.unwrap_or_default())
-        )
+        ))
     }
 
     fn read(key: String, kept: &str) -> Option<Self> {
@@ -198,7 +199,9 @@ impl Autosave {
             None => shelf.new_key(),
         };
         // It counts as kept where it cannot be: a full disk is not tried at every picture.
-        shelf.write(&key, &Kept::text_of(name, authored));
+        if let Some(text) = Kept::text_of(name, authored) {
+            shelf.write(&key, &text);
+        }
         self.kept.insert(id, (authored.revision(), key));
     }
 }

@@ -25,7 +25,7 @@ fn scenes_without_a_folder_take_the_files_along_that_came_with_them() {
         name: name.into(),
         bytes: bytes.into(),
     };
-    let text = scene::write(&scene);
+    let text = scene::write(&scene).unwrap();
     let arm = super::clips::arm_text(4).into_bytes();
     let inputs = vec![
         named("shot.posekit.toml", text.clone()),

@@ -275,7 +275,7 @@ fn a_take_by_the_scenes_camera_has_its_lights_and_no_trace_of_the_work() {
     let by_view = Take::of(&session, &ExportOptions::default()).scene(0.0);
     assert!(by_view.camera.eye.distance(drawn.camera.eye) > 0.1);
     // What is saved reads back as the same scene.
-    let saved = scene::write(scene_of(&session));
+    let saved = scene::write(scene_of(&session)).unwrap();
     assert_eq!(
         &scene::read(&saved).expect("what is written"),
         scene_of(&session)

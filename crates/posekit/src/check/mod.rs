@@ -18,13 +18,13 @@
 //! use std::sync::Arc;
 //! use glam::{Quat, Vec3};
 //! use posekit::check::{CheckConfig, FindingCode, check_motion};
-//! use posekit::motion::Motion;
+//! use posekit::motion::{FrameTime, Motion};
 //! use posekit::skeleton::SkeletonBuilder;
 //!
 //! let mut builder = SkeletonBuilder::new();
 //! let shoulder = builder.joint("Shoulder", None, Vec3::ZERO);
 //! builder.end_site("Hand", shoulder, Vec3::X);
-//! let mut motion = Motion::at_rest(Arc::new(builder.build()?), 40, 1.0 / 30.0, []);
+//! let mut motion = Motion::at_rest(Arc::new(builder.build()?), 40, FrameTime::of_fps(30), []);
 //! for frame in 0..40 {
 //!     let glitch = if frame == 20 { 1.5 } else { 0.0 };
 //!     motion.set_rotation(frame, shoulder, Quat::from_rotation_z(0.01 * frame as f32 + glitch));

@@ -9,7 +9,7 @@ use glam::Vec3;
 use super::figure::{Figure, figure, sample_frames};
 use super::statistics::median;
 use super::{Finding, FindingCode, Severity, Unit};
-use crate::motion::{GlobalMotion, Motion, PositionPolicies, PositionPolicy};
+use crate::motion::{FrameTime, GlobalMotion, Motion, PositionPolicies, PositionPolicy};
 use crate::pose::{GlobalPose, forward_kinematics};
 use crate::rotation::Axis;
 use crate::skeleton::{JointId, Skeleton};
@@ -299,7 +299,7 @@ fn few_frames(motion: &Motion) -> GlobalMotion {
         .collect();
     let translated = motion.translated_joints().to_vec();
     let skeleton = std::sync::Arc::clone(motion.skeleton());
-    Motion::from_poses(skeleton, 1.0, translated, &poses).to_global()
+    Motion::from_poses(skeleton, FrameTime::NONE, translated, &poses).to_global()
 }
 
 /// The first few names, and how many more there are.

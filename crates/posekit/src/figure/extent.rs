@@ -87,6 +87,7 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
+    use crate::motion::FrameTime;
     use crate::skeleton::SkeletonBuilder;
 
     /// A body two high on a root that stays at the origin while the body walks off along Z.
@@ -97,7 +98,7 @@ mod tests {
         builder.joint("head", Some(hips), Vec3::Y);
         builder.joint("foot", Some(hips), Vec3::NEG_Y);
         let skeleton = Arc::new(builder.build().unwrap());
-        let mut motion = Motion::at_rest(skeleton, 10, 0.1, [hips]);
+        let mut motion = Motion::at_rest(skeleton, 10, FrameTime::of_fps(10), [hips]);
         for frame in 0_u8..10 {
             let place = Vec3::new(0.0, 1.0, 5.0 + f32::from(frame) * steps);
             motion.set_translation(frame.into(), hips, place);
@@ -120,6 +121,9 @@ mod tests {
     #[test]
     fn without_frames_there_is_no_extent() {
         let skeleton = Arc::clone(walks_off(1.0).skeleton());
-        assert_eq!(body_extent(&Motion::at_rest(skeleton, 0, 0.1, [])), None);
+        assert_eq!(
+            body_extent(&Motion::at_rest(skeleton, 0, FrameTime::of_fps(10), [])),
+            None
+        );
     }
 }

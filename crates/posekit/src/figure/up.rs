@@ -298,7 +298,7 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::motion::Motion;
+    use crate::motion::{FrameTime, Motion};
 
     fn walk(up: UpAxis) -> Motion {
         let walk = crate::sample::by_name("walk").expect("a sample");
@@ -343,7 +343,7 @@ mod tests {
             builder.end_site(format!("{side}Foot_end"), foot, Vec3::new(0.0, -8.0, 14.0));
         }
         let skeleton = Arc::new(builder.build().expect("a skeleton"));
-        let mut crawl = Motion::at_rest(skeleton, 4, 0.1, [hips]);
+        let mut crawl = Motion::at_rest(skeleton, 4, FrameTime::of_fps(10), [hips]);
         for frame in 0..4 {
             crawl.set_rotation(frame, hips, Quat::from_rotation_x(1.4));
         }
@@ -357,7 +357,8 @@ mod tests {
     #[test]
     fn a_rest_pose_alone_is_enough() {
         let skeleton = Arc::clone(walk(UpAxis::Z).skeleton());
-        let guess = guess_up(&Motion::at_rest(skeleton, 0, 0.1, [])).expect("a figure");
+        let guess =
+            guess_up(&Motion::at_rest(skeleton, 0, FrameTime::of_fps(10), [])).expect("a figure");
         assert_eq!((guess.up, guess.is_known()), (UpAxis::Z, true));
     }
 

@@ -134,7 +134,7 @@ impl FillPlan {
 pub fn fill(motion: &Motion, plan: &FillPlan, method: impl Fn(JointId) -> Method) -> Motion {
     let skeleton = Arc::clone(motion.skeleton());
     let moving = motion.translated_joints().iter().copied();
-    let step = motion.frame_time_secs();
+    let step = motion.frame_time();
     let mut filled = Motion::at_rest(skeleton, plan.frame_count, step, moving);
     for &joint in motion.rotated_joints() {
         let keys: Vec<DQuat> = plan

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::euler::RotationTrack;
 use super::track::Track;
 use super::value::KeyValue;
-use crate::motion::Motion;
+use crate::motion::{FrameTime, Motion};
 use crate::pose::LocalPose;
 use crate::skeleton::{JointId, Skeleton};
 
@@ -28,30 +28,28 @@ pub struct Animation {
 pub struct BakeConfig {
     /// The time of the first frame, in seconds.
     pub start_secs: f64,
-    /// Time between two frames, in seconds.
-    pub frame_time_secs: f64,
+    /// Time between two frames.
+    pub frame_time: FrameTime,
     /// How many frames; they may be 0.
     pub frame_count: usize,
 }
 
 impl BakeConfig {
-    /// The frames of a time range at a rate, both ends included where the range is a whole number of
-    /// frames (to within a thousandth of a frame).
+    /// The frames of a time range, both ends included where the range is a whole number of frames (to
+    /// within a thousandth of a frame).
     ///
-    /// A range that ends before it starts has no frames. A rate that is not finite and positive counts
-    /// as none, and gives the start alone.
-    pub fn of_range([start_secs, end_secs]: [f64; 2], frames_per_sec: f64) -> Self {
+    /// A range that ends before it starts has no frames. Without a [frame time](FrameTime::NONE) the start alone
+    /// is one.
+    pub fn of_range([start_secs, end_secs]: [f64; 2], frame_time: FrameTime) -> Self {
         /// How much of a frame may be missing at the end: times of text are rounded.
         const SLACK: f64 = 1e-3;
-        let is_rate = frames_per_sec.is_finite() && frames_per_sec > 0.0;
-        let frames = if is_rate {
-            (end_secs - start_secs) * frames_per_sec
-        } else {
-            0.0
-        };
+        let frames = frame_time.frames_per_sec().map_or(0.0, |rate| {
+            // A range without end and one of no times have no number of frames.
+            (end_secs - start_secs) * rate
+        });
         Self {
             start_secs,
-            frame_time_secs: if is_rate { 1.0 / frames_per_sec } else { 0.0 },
+            frame_time,
             frame_count: whole_frames(frames + SLACK),
         }
     }
@@ -208,16 +206,13 @@ impl Animation {
 
     /// The motion at a uniform rate. Its translated joints are those with a translation track, and the
     /// roots; its frame 0 is at the start of the range.
-    ///
-    /// # Panics
-    /// If the frame time is not finite or negative, as [`Motion::at_rest`].
     pub fn bake(&self, config: &BakeConfig) -> Motion {
         let mut moving: Vec<JointId> = self.skeleton.roots().collect();
         moving.extend(self.translations().map(|(joint, _)| joint));
         let frames = config.frame_count;
         let skeleton = Arc::clone(&self.skeleton);
-        let mut motion = Motion::at_rest(skeleton, frames, config.frame_time_secs, moving);
-        let time = |frame| config.start_secs + index_to_f64(frame) * config.frame_time_secs;
+        let mut motion = Motion::at_rest(skeleton, frames, config.frame_time, moving);
+        let time = |frame| config.start_secs + index_to_f64(frame) * config.frame_time.secs();
         for (joint, track) in self.rotations() {
             for frame in 0..frames {
                 motion.set_rotation(frame, joint, track.sample(time(frame)).as_quat());

@@ -24,6 +24,10 @@ impl Extrapolation {
     }
 }
 
+/// Beyond so many turns there is no telling where in a turn a time is: whole numbers end there, and the way
+/// added for each turn would leave every range. The track holds instead.
+const MOST_TURNS: f64 = (1_u64 << 53) as f64;
+
 /// A time brought between the first and the last key.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
@@ -51,6 +55,9 @@ impl Place {
             return held(nearest);
         }
         let turns = ((time_secs - start) / span).floor();
+        if turns.abs() > MOST_TURNS {
+            return held(nearest);
+        }
         // Rounding may leave a little more than the span, or less than nothing.
         let rest = (time_secs - start - turns * span).clamp(0.0, span);
         match way {

@@ -43,7 +43,8 @@ pub use extrapolation::{Extrapolation, Place};
 pub use key::{Handle, HandlePair, Interpolation, Keyframe, Tangents};
 pub use property::{KeyedCamera, KeyedLight, KeyedTransform, Property};
 pub use reduce::{
-    KeyError, LEAST_ANGLE_DEG, LEAST_DISTANCE_HEIGHTS, ReduceConfig, ReduceError, Reduction, reduce,
+    KeyError, KeyedFrames, LEAST_ANGLE_DEG, LEAST_DISTANCE_HEIGHTS, ReduceConfig, ReduceError,
+    Reduction, reduce,
 };
 pub use sampler::PoseSampler;
 pub use track::{Track, TrackError, angular_velocity_of_tangent, tangent_of_angular_velocity};

@@ -5,6 +5,14 @@ use glam::{DQuat, DVec3};
 use super::extrapolation::{Extrapolation, Place};
 use super::key::{Handle, HandlePair, Interpolation, Keyframe, Tangents};
 use super::value::{KeyValue, Meeting, ValueFault};
+use crate::range::{LONGEST_LENGTH, LONGEST_SECS, SHORTEST_SECS};
+
+/// The steepest slope: from one end of the lengths to the other in the shortest time, and as much again, since slopes
+/// at keys may be steeper than those between them.
+const STEEPEST: f64 = 4.0 * LONGEST_LENGTH / SHORTEST_SECS;
+
+/// The least time between two keys. Times are rounded: keys that are the shortest time apart may miss it.
+const LEAST_GAP_SECS: f64 = 0.5 * SHORTEST_SECS;
 
 /// Why keys do not make a track. Indices count the keys from 0.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -13,15 +21,15 @@ pub enum TrackError {
     /// There is no key.
     #[error("a track needs at least one key")]
     Empty,
-    /// A time is NaN or infinite.
-    #[error("the time of key {index} is not finite")]
-    TimeNotFinite {
+    /// A time is farther from 0 than [`LONGEST_SECS`], or not a number.
+    #[error("the time of key {index} is not within {LONGEST_SECS:e} s of 0")]
+    TimeOutOfRange {
         /// Index of the key.
         index: usize,
     },
-    /// A key does not come after the one before it.
+    /// A key does not come after the one before it, or as good as at the same time (within half of [`SHORTEST_SECS`]).
     #[error(
-        "key {index} at {time_secs} s does not come after the key before it at {previous_secs} s"
+        "key {index} at {time_secs:?} s does not come {LEAST_GAP_SECS:e} s or more after the key before it at {previous_secs:?} s"
     )]
     NotAscending {
         /// Index of the key.
@@ -31,9 +39,9 @@ pub enum TrackError {
         /// The time of the key before it, in seconds.
         previous_secs: f64,
     },
-    /// A value has a component that is NaN or infinite.
-    #[error("the value of key {index} is not finite")]
-    ValueNotFinite {
+    /// A value has a component that is larger than [`LONGEST_LENGTH`], or not a number.
+    #[error("the value of key {index} is not within {LONGEST_LENGTH:e}")]
+    ValueOutOfRange {
         /// Index of the key.
         index: usize,
     },
@@ -45,9 +53,12 @@ pub enum TrackError {
         /// The quaternion's length.
         length: f64,
     },
-    /// A tangent has a component that is NaN or infinite.
-    #[error("a tangent of key {index} is not finite")]
-    TangentNotFinite {
+    /// A slope is steeper than the longest length in the shortest time, a handle longer than the longest of either, or
+    /// one of them not a number.
+    #[error(
+        "a tangent of key {index} is not within {STEEPEST:e} a second, or longer than keys can be apart"
+    )]
+    TangentOutOfRange {
         /// Index of the key.
         index: usize,
     },
@@ -63,6 +74,22 @@ pub enum TrackError {
         /// Index of the key.
         index: usize,
     },
+}
+
+impl TrackError {
+    /// The index of the key that is at fault; `None` when there is none at all.
+    pub fn key(&self) -> Option<usize> {
+        match *self {
+            Self::Empty => None,
+            Self::TimeOutOfRange { index }
+            | Self::NotAscending { index, .. }
+            | Self::ValueOutOfRange { index }
+            | Self::NotUnit { index, .. }
+            | Self::TangentOutOfRange { index }
+            | Self::HandleBackwards { index }
+            | Self::HandlesOfQuaternion { index } => Some(index),
+        }
+    }
 }
 
 /// A key as the curve uses it.
@@ -151,8 +178,8 @@ impl<V: KeyValue> Track<V> {
     /// A track of these keys that goes on in one way before its first and after its last key.
     ///
     /// # Errors
-    /// [`TrackError`] when there is no key, a number is not finite, times do not rise or a quaternion
-    /// is not of unit length.
+    /// [`TrackError`] when there is no key, a number is beyond the [`range`](crate::range) of what posekit works
+    /// with, times do not rise or a quaternion is not of unit length.
     pub fn new(keys: Vec<Keyframe<V>>, beyond: Extrapolation) -> Result<Self, TrackError> {
         Self::with_ends(keys, beyond, beyond)
     }
@@ -584,10 +611,12 @@ fn check<V: KeyValue>(keys: &[Keyframe<V>]) -> Result<(), TrackError> {
     let mut previous: Option<f64> = None;
     for (index, key) in keys.iter().enumerate() {
         let time_secs = key.time_secs;
-        if !time_secs.is_finite() {
-            return Err(TrackError::TimeNotFinite { index });
+        // NaN is within nothing.
+        if time_secs.is_nan() || time_secs.abs() > LONGEST_SECS {
+            return Err(TrackError::TimeOutOfRange { index });
         }
-        if let Some(previous_secs) = previous.filter(|&previous| time_secs <= previous) {
+        let is_too_early = |previous: &f64| time_secs - previous < LEAST_GAP_SECS;
+        if let Some(previous_secs) = previous.filter(is_too_early) {
             return Err(TrackError::NotAscending {
                 index,
                 time_secs,
@@ -597,12 +626,14 @@ fn check<V: KeyValue>(keys: &[Keyframe<V>]) -> Result<(), TrackError> {
         previous = Some(time_secs);
         match key.value.fault() {
             None => {}
-            Some(ValueFault::NotFinite) => return Err(TrackError::ValueNotFinite { index }),
+            Some(ValueFault::OutOfRange) => return Err(TrackError::ValueOutOfRange { index }),
             Some(ValueFault::NotUnit(length)) => return Err(TrackError::NotUnit { index, length }),
         }
-        let tangents_are_finite = match key.tangents {
-            Tangents::Aligned(tangent) => tangent.is_finite(),
-            Tangents::Broken { incoming, outgoing } => incoming.is_finite() && outgoing.is_finite(),
+        let tangents_are_in_range = match key.tangents {
+            Tangents::Aligned(tangent) => tangent.is_within(STEEPEST),
+            Tangents::Broken { incoming, outgoing } => {
+                incoming.is_within(STEEPEST) && outgoing.is_within(STEEPEST)
+            }
             Tangents::Handles {
                 incoming, outgoing, ..
             } => {
@@ -610,16 +641,18 @@ fn check<V: KeyValue>(keys: &[Keyframe<V>]) -> Result<(), TrackError> {
                     return Err(TrackError::HandlesOfQuaternion { index });
                 }
                 let both = [incoming, outgoing];
-                let finite = both.map(|it| it.secs.is_finite() && it.value.is_finite());
-                if finite == [true; 2] && !both.iter().all(|it| it.secs.is_no_less_than_zero()) {
+                let in_range = both.iter().all(|it| {
+                    it.secs.is_within(LONGEST_SECS) && it.value.is_within(LONGEST_LENGTH)
+                });
+                if in_range && !both.iter().all(|it| it.secs.is_no_less_than_zero()) {
                     return Err(TrackError::HandleBackwards { index });
                 }
-                finite == [true; 2]
+                in_range
             }
             Tangents::Auto | Tangents::Smooth | Tangents::Flat => true,
         };
-        if !tangents_are_finite {
-            return Err(TrackError::TangentNotFinite { index });
+        if !tangents_are_in_range {
+            return Err(TrackError::TangentOutOfRange { index });
         }
     }
     Ok(())

@@ -10,6 +10,7 @@
 
 use glam::{DQuat, DVec3};
 
+use crate::range::LONGEST_LENGTH;
 use crate::rotation::{exp, log, slerp};
 
 /// How far from 1 the length of a key's quaternion may be: that of four decimals, written by hand.
@@ -38,8 +39,8 @@ pub(crate) const LEAST_HANDLE_SECS: f64 = 1e-6;
 /// What is wrong with a value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ValueFault {
-    /// A component is NaN or infinite.
-    NotFinite,
+    /// A component is larger than [`LONGEST_LENGTH`], or not a number.
+    OutOfRange,
     /// The quaternion is not of unit length.
     NotUnit(f64),
 }
@@ -65,8 +66,8 @@ pub trait Value: Copy + PartialEq + std::fmt::Debug + Send + Sync + 'static {
     /// What is wrong with it as a key's value, if anything.
     fn fault(self) -> Option<ValueFault>;
 
-    /// Whether every component is finite.
-    fn is_finite(self) -> bool;
+    /// Whether no component is larger than this, whatever its sign; NaN is.
+    fn is_within(self, most: f64) -> bool;
 
     /// As it is used: an orientation at unit length.
     fn normalized(self) -> Self;
@@ -238,11 +239,11 @@ impl Value for f64 {
     type Velocity = Self;
 
     fn fault(self) -> Option<ValueFault> {
-        (!self.is_finite()).then_some(ValueFault::NotFinite)
+        (!self.is_within(LONGEST_LENGTH)).then_some(ValueFault::OutOfRange)
     }
 
-    fn is_finite(self) -> bool {
-        Self::is_finite(self)
+    fn is_within(self, most: f64) -> bool {
+        self.abs() <= most
     }
 
     fn normalized(self) -> Self {
@@ -344,11 +345,11 @@ impl Value for DVec3 {
     type Velocity = Self;
 
     fn fault(self) -> Option<ValueFault> {
-        (!Self::is_finite(self)).then_some(ValueFault::NotFinite)
+        (!self.is_within(LONGEST_LENGTH)).then_some(ValueFault::OutOfRange)
     }
 
-    fn is_finite(self) -> bool {
-        Self::is_finite(self)
+    fn is_within(self, most: f64) -> bool {
+        self.to_array().into_iter().all(|part| part.abs() <= most)
     }
 
     fn normalized(self) -> Self {
@@ -455,15 +456,15 @@ impl Value for DQuat {
     type Velocity = DVec3;
 
     fn fault(self) -> Option<ValueFault> {
-        if !Self::is_finite(self) {
-            return Some(ValueFault::NotFinite);
+        if !self.is_within(LONGEST_LENGTH) {
+            return Some(ValueFault::OutOfRange);
         }
         let length = self.length();
         ((length - 1.0).abs() > UNIT_TOLERANCE).then_some(ValueFault::NotUnit(length))
     }
 
-    fn is_finite(self) -> bool {
-        Self::is_finite(self)
+    fn is_within(self, most: f64) -> bool {
+        self.to_array().into_iter().all(|part| part.abs() <= most)
     }
 
     fn normalized(self) -> Self {

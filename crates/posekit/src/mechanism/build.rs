@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::{Follow, FollowedValue, Freedom, Mechanism, MechanismJoint, ValueRange};
+use crate::range::are_lengths;
 use crate::skeleton::{JointId, Skeleton};
 
 /// Why a mechanism could not be built.
@@ -202,6 +203,13 @@ fn followed_values(
                 multiplier: follow.multiplier * value.multiplier,
                 offset: follow.multiplier * value.offset + follow.offset,
             };
+            if !are_lengths([value.multiplier, value.offset]) {
+                return Err(MechanismError::Follow {
+                    joint,
+                    name: skeleton.name(JointId::new(joint)).to_owned(),
+                    followed: follow.joint.index(),
+                });
+            }
             found[joint] = Some(value);
         }
     }

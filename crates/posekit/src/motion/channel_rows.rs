@@ -4,13 +4,34 @@ use std::sync::Arc;
 
 use glam::{Quat, Vec3};
 
-use super::{
-    Channel, ChannelLayout, Motion, PositionPolicies, PositionPolicy, Tracks, check_frame_time,
-};
+use super::{Channel, ChannelLayout, FrameTime, Motion, PositionPolicies, PositionPolicy, Tracks};
 use crate::lanes::{self, Kernel, LANES, QuatLanes, Register, Vec3Lanes};
+use crate::range::LONGEST_LENGTH;
 use crate::rotation::Axis;
 use crate::rotation::sincos_lanes::{repeat_last_row, row_starts, set_quats_from_rows_deg};
 use crate::skeleton::{JointId, Skeleton};
+
+/// A value of a channel row that no motion is made of: a place farther away than posekit works with, or an angle
+/// of so many turns that its digits no longer say where in a turn it is.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "{} of joint `{joint_name}` is {value:?} at frame {frame}, which is not within {LONGEST_LENGTH:e}",
+    channel.name()
+)]
+pub struct ChannelValueError {
+    /// The frame, counted from 0.
+    pub frame: usize,
+    /// The column of the row.
+    pub column: usize,
+    /// The joint whose channel it is.
+    pub joint: JointId,
+    /// The joint's unique name.
+    pub joint_name: String,
+    /// The channel.
+    pub channel: Channel,
+    /// The value.
+    pub value: f64,
+}
 
 impl Motion {
     /// The motion that rows of channel values make: angles in degrees, positions in the file's
@@ -21,19 +42,21 @@ impl Motion {
     /// turns keep their precision. Joints whose layout has a position channel get a translation
     /// track; coordinates without a channel stay at the OFFSET.
     ///
+    /// # Errors
+    /// [`ChannelValueError`] with the first value that is not within [`LONGEST_LENGTH`], or not a number.
+    ///
     /// # Panics
-    /// If the layout names a joint that the skeleton does not have, or the frame time is not finite
-    /// or negative.
+    /// If the layout names a joint that the skeleton does not have.
     pub fn from_channel_rows(
         skeleton: Arc<Skeleton>,
-        frame_time_secs: f64,
+        frame_time: FrameTime,
         layout: &ChannelLayout,
         rows: &[f64],
         policies: impl Into<PositionPolicies>,
-    ) -> Self {
-        let mut motion = Self::at_rest(skeleton, 0, frame_time_secs, []);
-        motion.set_channel_rows(frame_time_secs, layout, rows, policies);
-        motion
+    ) -> Result<Self, ChannelValueError> {
+        let mut motion = Self::at_rest(skeleton, 0, frame_time, []);
+        motion.set_channel_rows(frame_time, layout, rows, policies)?;
+        Ok(motion)
     }
 
     /// Makes this motion of the same skeleton what
@@ -41,30 +64,56 @@ impl Motion {
     /// already where it suffices: for rows that are edited and looked at again, and for many files
     /// of one skeleton.
     ///
+    /// # Errors
+    /// As [`from_channel_rows`](Self::from_channel_rows); the motion is what it was.
+    ///
     /// # Panics
     /// As [`from_channel_rows`](Self::from_channel_rows).
     pub fn set_channel_rows(
         &mut self,
-        frame_time_secs: f64,
+        frame_time: FrameTime,
         layout: &ChannelLayout,
         rows: &[f64],
         policies: impl Into<PositionPolicies>,
-    ) {
-        self.set_channel_rows_by(frame_time_secs, layout, rows, policies.into(), |kernel| {
+    ) -> Result<(), ChannelValueError> {
+        let frame_count = rows.len().checked_div(layout.column_count()).unwrap_or(0);
+        let rows = &rows[..frame_count * layout.column_count()];
+        if let Some(at) = first_out_of_range(rows) {
+            return Err(self.channel_value_error(layout, rows, at));
+        }
+        self.set_channel_rows_by(frame_time, layout, rows, policies.into(), |kernel| {
             lanes::run(kernel);
         });
+        Ok(())
+    }
+
+    fn channel_value_error(
+        &self,
+        layout: &ChannelLayout,
+        rows: &[f64],
+        at: usize,
+    ) -> ChannelValueError {
+        let (frame, column) = (at / layout.column_count(), at % layout.column_count());
+        let (joint, channel) = layout.columns()[column];
+        ChannelValueError {
+            frame,
+            column,
+            joint,
+            joint_name: self.skeleton.unique_name(joint).to_owned(),
+            channel,
+            value: rows[at],
+        }
     }
 
     /// [`set_channel_rows`](Self::set_channel_rows) on registers of the caller's choice.
     pub(super) fn set_channel_rows_by(
         &mut self,
-        frame_time_secs: f64,
+        frame_time: FrameTime,
         layout: &ChannelLayout,
         rows: &[f64],
         policies: PositionPolicies,
         run: impl FnOnce(FillBlocks<'_>),
     ) {
-        check_frame_time(frame_time_secs);
         let column_count = layout.column_count();
         let positioned = layout
             .columns()
@@ -76,7 +125,7 @@ impl Motion {
             .map(|&(joint, _)| joint);
         self.translated = Tracks::new(self.skeleton.joint_count(), positioned);
         self.frame_count = rows.len().checked_div(column_count).unwrap_or(0);
-        self.frame_time_secs = frame_time_secs;
+        self.frame_time = frame_time;
         let (rotation_steps, translation_steps) = steps(self, layout, policies);
         let block_count = self.block_count();
         make_room(&mut self.rotations, block_count * rotation_steps.len());
@@ -93,6 +142,21 @@ impl Motion {
             translations: &mut self.translations,
         });
     }
+}
+
+/// The place of the first value that no motion is made of.
+fn first_out_of_range(rows: &[f64]) -> Option<usize> {
+    /// Values that are looked at together, without a branch between them.
+    const TOGETHER: usize = 1024;
+    let is_in_range = |value: &f64| value.abs() <= LONGEST_LENGTH;
+    let chunk = rows.chunks(TOGETHER).position(|chunk| {
+        !chunk
+            .iter()
+            .fold(true, |all, value| all & is_in_range(value))
+    })?;
+    let start = chunk * TOGETHER;
+    let within = rows[start..].iter().position(|value| !is_in_range(value));
+    within.map(|at| start + at)
 }
 
 /// Cuts what is too long and reserves what is missing; [`FillBlocks`] appends it block by block.

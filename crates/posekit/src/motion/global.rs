@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::{Quat, Vec3};
 
-use super::Motion;
+use super::{FrameTime, Motion};
 use crate::lanes::{
     self, Kernel, LANES, QuatLanes, QuatRegisters, Register, Vec3Lanes, Vec3Registers,
 };
@@ -17,7 +17,7 @@ use crate::skeleton::{JointId, Skeleton};
 pub struct GlobalMotion {
     skeleton: Arc<Skeleton>,
     frame_count: usize,
-    frame_time_secs: f64,
+    frame_time: FrameTime,
     /// Block after block, all joints.
     transforms: Vec<TransformLanes>,
 }
@@ -28,7 +28,7 @@ impl fmt::Debug for GlobalMotion {
         f.debug_struct("GlobalMotion")
             .field("joints", &self.skeleton.joint_count())
             .field("frames", &self.frame_count)
-            .field("frame_time_secs", &self.frame_time_secs)
+            .field("frame_time_secs", &self.frame_time.secs())
             .finish_non_exhaustive()
     }
 }
@@ -77,7 +77,7 @@ impl GlobalMotion {
         let mut global = Self {
             skeleton: Arc::clone(motion.skeleton()),
             frame_count: 0,
-            frame_time_secs: 0.0,
+            frame_time: FrameTime::NONE,
             transforms: Vec::new(),
         };
         global.update(motion);
@@ -106,7 +106,7 @@ impl GlobalMotion {
         });
         self.skeleton = Arc::clone(skeleton);
         self.frame_count = motion.frame_count();
-        self.frame_time_secs = motion.frame_time_secs();
+        self.frame_time = motion.frame_time();
     }
 
     /// The skeleton that moves.
@@ -119,9 +119,9 @@ impl GlobalMotion {
         self.frame_count
     }
 
-    /// Time between two frames, in seconds.
+    /// Time between two frames, in seconds; 0 when all frames are at one time.
     pub fn frame_time_secs(&self) -> f64 {
-        self.frame_time_secs
+        self.frame_time.secs()
     }
 
     /// A joint's position in the world at a frame.

@@ -11,6 +11,7 @@
 mod channel;
 mod channel_layout;
 mod channel_rows;
+mod frame_time;
 mod global;
 #[cfg(test)]
 mod same_bits;
@@ -23,11 +24,14 @@ use glam::{Quat, Vec3};
 
 use crate::lanes::{LANES, QuatLanes, Vec3Lanes};
 use crate::pose::LocalPose;
+use crate::range::are_lengths;
 use crate::rotation::slerp_f32;
 use crate::skeleton::{JointId, Skeleton};
 
 pub use channel::Channel;
 pub use channel_layout::{ChannelLayout, PositionPolicies, PositionPolicy};
+pub use channel_rows::ChannelValueError;
+pub use frame_time::{FrameTime, FrameTimeError};
 pub use global::GlobalMotion;
 
 /// Marks a joint that has no track of a kind.
@@ -38,7 +42,7 @@ const NO_TRACK: u32 = u32::MAX;
 pub struct Motion {
     skeleton: Arc<Skeleton>,
     frame_count: usize,
-    frame_time_secs: f64,
+    frame_time: FrameTime,
     rotated: Tracks,
     translated: Tracks,
     /// Block after block, the rotations of the rotated joints.
@@ -85,7 +89,7 @@ impl fmt::Debug for Motion {
         f.debug_struct("Motion")
             .field("joints", &self.skeleton.joint_count())
             .field("frames", &self.frame_count)
-            .field("frame_time_secs", &self.frame_time_secs)
+            .field("frame_time_secs", &self.frame_time.secs())
             .field("rotated", &self.rotated.len())
             .field("translated", &self.translated.len())
             .finish_non_exhaustive()
@@ -96,18 +100,16 @@ impl Motion {
     /// A motion in which every frame is the rest pose. Every joint but the End Sites can turn; the
     /// joints of `translated` can move in their parent's space too.
     ///
-    /// `frame_time_secs` is the time between two frames; a motion of a single frame keeps it for
-    /// the file it may be written to.
+    /// A motion of a single frame keeps its frame time for the file it may be written to.
     ///
     /// # Panics
-    /// If a joint is not one of the skeleton's, or the frame time is not finite or negative.
+    /// If a joint is not one of the skeleton's.
     pub fn at_rest(
         skeleton: Arc<Skeleton>,
         frame_count: usize,
-        frame_time_secs: f64,
+        frame_time: FrameTime,
         translated: impl IntoIterator<Item = JointId>,
     ) -> Self {
-        check_frame_time(frame_time_secs);
         let joint_count = skeleton.joint_count();
         let moving = skeleton
             .joints()
@@ -128,7 +130,7 @@ impl Motion {
             translations: rest_translations.repeat(block_count),
             skeleton,
             frame_count,
-            frame_time_secs,
+            frame_time,
             rotated,
             translated,
         }
@@ -140,11 +142,11 @@ impl Motion {
     /// As [`at_rest`](Self::at_rest), and if a pose has not as many joints as the skeleton.
     pub fn from_poses(
         skeleton: Arc<Skeleton>,
-        frame_time_secs: f64,
+        frame_time: FrameTime,
         translated: impl IntoIterator<Item = JointId>,
         poses: &[LocalPose],
     ) -> Self {
-        let mut motion = Self::at_rest(skeleton, poses.len(), frame_time_secs, translated);
+        let mut motion = Self::at_rest(skeleton, poses.len(), frame_time, translated);
         for (frame, pose) in poses.iter().enumerate() {
             motion.set_pose(frame, pose);
         }
@@ -161,14 +163,19 @@ impl Motion {
         self.frame_count
     }
 
-    /// Time between two frames, in seconds.
+    /// Time between two frames.
+    pub fn frame_time(&self) -> FrameTime {
+        self.frame_time
+    }
+
+    /// Time between two frames, in seconds; 0 when all frames are at one time.
     pub fn frame_time_secs(&self) -> f64 {
-        self.frame_time_secs
+        self.frame_time.secs()
     }
 
     /// The time of the last frame, in seconds; the first is at 0.
     pub fn duration_secs(&self) -> f64 {
-        index_to_f64(self.frame_count.saturating_sub(1)) * self.frame_time_secs
+        index_to_f64(self.frame_count.saturating_sub(1)) * self.frame_time_secs()
     }
 
     /// The joints whose translation is animated, in topological order.
@@ -250,6 +257,31 @@ impl Motion {
         for (joint, lanes) in self.translated.joints.iter().zip(translations) {
             lanes.set_lane(lane, pose.translations[joint.index()]);
         }
+    }
+
+    /// The first frame at which a joint's translation is not within
+    /// [`LONGEST_LENGTH`](crate::range::LONGEST_LENGTH), and the joint: there what is computed of the motion may not
+    /// be finite. Rows of channels and keys are held against that when they are read; what lies between keys and
+    /// beyond them may be farther away.
+    pub fn first_out_of_range(&self) -> Option<(usize, JointId)> {
+        let translated = self.translated.len();
+        if translated == 0 {
+            return None;
+        }
+        let is_in_range = |lanes: &Vec3Lanes| {
+            let parts = [lanes.x, lanes.y, lanes.z];
+            let parts = parts.iter().flat_map(|part| part.0);
+            are_lengths(parts.map(f64::from))
+        };
+        let at = self.translations.iter().position(|it| !is_in_range(it))?;
+        let first = at / translated * LANES;
+        (first..self.frame_count.min(first + LANES)).find_map(|frame| {
+            let joints = self.translated.joints.iter();
+            let is_beyond = |joint: &JointId| {
+                !are_lengths(self.translation(frame, *joint).to_array().map(f64::from))
+            };
+            Some((frame, joints.copied().find(is_beyond)?))
+        })
     }
 
     /// The pose at a frame.
@@ -335,10 +367,10 @@ impl Motion {
     )]
     fn frame_at(&self, time_secs: f64) -> (usize, f32) {
         let last = self.frame_count - 1;
-        if self.frame_time_secs <= 0.0 || time_secs.is_nan() {
+        if self.frame_time.is_none() || time_secs.is_nan() {
             return (0, 0.0);
         }
-        let place = (time_secs / self.frame_time_secs).clamp(0.0, index_to_f64(last));
+        let place = (time_secs / self.frame_time_secs()).clamp(0.0, index_to_f64(last));
         let frame = (place as usize).min(last);
         (frame, (place - index_to_f64(frame)) as f32)
     }
@@ -371,13 +403,6 @@ impl Motion {
     fn translation_block(&self, block: usize) -> &[Vec3Lanes] {
         &self.translations[block * self.translated.len()..][..self.translated.len()]
     }
-}
-
-fn check_frame_time(frame_time_secs: f64) {
-    assert!(
-        frame_time_secs.is_finite() && frame_time_secs >= 0.0,
-        "a frame time is finite and not negative"
-    );
 }
 
 /// A frame number as a factor of time. Exact below 2^53.

@@ -6,7 +6,9 @@ use std::sync::Arc;
 
 use glam::{EulerRot, Quat, Vec3};
 
-use super::{Channel, ChannelLayout, GlobalMotion, Motion, PositionPolicies, PositionPolicy};
+use super::{
+    Channel, ChannelLayout, FrameTime, GlobalMotion, Motion, PositionPolicies, PositionPolicy,
+};
 use crate::lanes::{Lanes, run_portable};
 use crate::pose::{GlobalPose, forward_kinematics};
 use crate::rotation::Axis;
@@ -21,11 +23,24 @@ struct Clip {
 
 fn motions(clip: &Clip, policy: PositionPolicies) -> [Motion; 2] {
     let skeleton = || Arc::clone(&clip.skeleton);
-    let widest = Motion::from_channel_rows(skeleton(), 0.01, &clip.layout, &clip.rows, policy);
-    let mut portable = Motion::at_rest(skeleton(), 0, 0.0, []);
-    portable.set_channel_rows_by(0.01, &clip.layout, &clip.rows, policy, |kernel| {
-        run_portable(kernel);
-    });
+    let widest = Motion::from_channel_rows(
+        skeleton(),
+        FrameTime::of_fps(100),
+        &clip.layout,
+        &clip.rows,
+        policy,
+    )
+    .expect("values in range");
+    let mut portable = Motion::at_rest(skeleton(), 0, FrameTime::NONE, []);
+    portable.set_channel_rows_by(
+        FrameTime::of_fps(100),
+        &clip.layout,
+        &clip.rows,
+        policy,
+        |kernel| {
+            run_portable(kernel);
+        },
+    );
     [widest, portable]
 }
 
@@ -60,7 +75,8 @@ fn assert_same_bits(clip: &Clip, what: &str) {
 
 fn assert_same_global_bits(motion: &Motion, what: &str) {
     let widest = motion.to_global();
-    let mut portable = Motion::at_rest(Arc::clone(motion.skeleton()), 3, 0.0, []).to_global();
+    let mut portable =
+        Motion::at_rest(Arc::clone(motion.skeleton()), 3, FrameTime::NONE, []).to_global();
     portable.update_by(motion, |kernel| run_portable(kernel));
     assert_eq!(portable.frame_count(), motion.frame_count());
     let mut one_pose = GlobalPose::default();
@@ -257,15 +273,24 @@ fn refilled_motions_are_what_new_ones_are() {
     let rotations = [Axis::Z, Axis::X].map(Channel::Rotation);
     let positions = [Axis::Y].map(Channel::Position);
     let both = rotations.into_iter().chain(positions);
-    let mut motion = Motion::at_rest(Arc::clone(&skeleton), 40, 1.0, [child]);
+    let mut motion = Motion::at_rest(Arc::clone(&skeleton), 40, FrameTime::of_fps(1), [child]);
     let mut global: Option<GlobalMotion> = None;
     for (round, frames) in [30, 3, 0, 17, 64, 64, 9].into_iter().enumerate() {
         let joint = [root, child][round % 2];
         let layout = ChannelLayout::new(both.clone().map(|channel| (joint, channel)));
         let rows: Vec<f64> = (0..3 * frames).map(|_| numbers.next() * 90.0).collect();
         let policy = PositionPolicies::default();
-        motion.set_channel_rows(0.5, &layout, &rows, policy);
-        let new = Motion::from_channel_rows(Arc::clone(&skeleton), 0.5, &layout, &rows, policy);
+        motion
+            .set_channel_rows(FrameTime::of_fps(2), &layout, &rows, policy)
+            .expect("values in range");
+        let new = Motion::from_channel_rows(
+            Arc::clone(&skeleton),
+            FrameTime::of_fps(2),
+            &layout,
+            &rows,
+            policy,
+        )
+        .expect("values in range");
         assert_eq!(motion.frame_count(), frames);
         assert_eq!(motion.translated_joints(), [joint]);
         assert_eq!(motion_bits(&motion), motion_bits(&new), "round {round}");

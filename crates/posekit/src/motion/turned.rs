@@ -5,18 +5,15 @@ use std::sync::Arc;
 use glam::Quat;
 
 use super::Motion;
-use crate::skeleton::{Skeleton, SkeletonBuilder};
 
 impl Motion {
     /// The same motion in a world turned by `turn` about the origin: the rest pose and every frame. Only the
     /// roots' transforms change.
-    ///
-    /// # Panics
-    /// If `turn` is not a unit quaternion.
+    /// `turn` is a unit quaternion.
     #[must_use]
     pub fn turned(&self, turn: Quat) -> Self {
         let mut turned = Self {
-            skeleton: Arc::new(turned_skeleton(&self.skeleton, turn)),
+            skeleton: Arc::new(self.skeleton.turned(turn)),
             ..self.clone()
         };
         let roots: Vec<_> = self.skeleton.roots().collect();
@@ -31,27 +28,6 @@ impl Motion {
         }
         turned
     }
-}
-
-fn turned_skeleton(skeleton: &Skeleton, turn: Quat) -> Skeleton {
-    let mut builder = SkeletonBuilder::new();
-    for joint in skeleton.joints() {
-        let name = skeleton.name(joint);
-        let (translation, rotation) = (
-            skeleton.rest_translation(joint),
-            skeleton.rest_rotation(joint),
-        );
-        match skeleton.parent(joint) {
-            None => builder.oriented_joint(name, None, turn * translation, turn * rotation),
-            Some(parent) if skeleton.is_end_site(joint) => {
-                builder.end_site(name, parent, translation)
-            }
-            parent => builder.oriented_joint(name, parent, translation, rotation),
-        };
-    }
-    builder
-        .build()
-        .expect("a turned skeleton is as valid as it was")
 }
 
 #[cfg(test)]

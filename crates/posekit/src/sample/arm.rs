@@ -7,7 +7,7 @@ use glam::{DQuat, DVec3};
 
 use super::SampleError;
 use super::curve::{about_x, about_y, about_z, minimum_jerk};
-use super::gait::FRAMES_PER_SEC;
+use super::gait::{FRAME_TIME, FRAMES_PER_SEC};
 use crate::motion::Motion;
 use crate::skeleton::{JointId, Skeleton, SkeletonBuilder};
 
@@ -91,7 +91,7 @@ pub fn arm(config: &ArmConfig) -> Result<Motion, SampleError> {
     let mut motion = Motion::at_rest(
         skeleton,
         frame_count as usize,
-        1.0 / FRAMES_PER_SEC,
+        FRAME_TIME,
         [JointId::new(0)],
     );
     for frame in 0..frame_count {

@@ -19,7 +19,7 @@ use super::foot::{FootPath, FootStyle};
 use super::humanoid::{Figure, HIPS, motion_of};
 use super::leg;
 use super::posture::{ArmPose, Bearing, turn_trunk};
-use crate::motion::Motion;
+use crate::motion::{FrameTime, Motion};
 
 /// A value that swings about its mean once or twice a cycle, in degrees or metres.
 #[derive(Clone, Copy, Debug)]
@@ -104,6 +104,9 @@ pub(super) struct ArmStyle {
 /// Frames a second of all samples.
 pub(super) const FRAMES_PER_SEC: f64 = 60.0;
 
+/// The time between two of them.
+pub(super) const FRAME_TIME: FrameTime = FrameTime::of_fps(60);
+
 /// The motion of a gait: `cycles` whole cycles, and the first frame once more at the end.
 pub(super) fn motion(style: &GaitStyle) -> Motion {
     let gait = Gait::new(style);
@@ -111,7 +114,7 @@ pub(super) fn motion(style: &GaitStyle) -> Motion {
     let figures: Vec<Figure> = frames
         .map(|frame| gait.figure(f64::from(frame) / f64::from(style.frames_per_cycle)))
         .collect();
-    motion_of(&figures, 1.0 / FRAMES_PER_SEC)
+    motion_of(&figures)
 }
 
 struct Gait<'a> {

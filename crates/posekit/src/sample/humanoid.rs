@@ -10,6 +10,7 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3, Vec3};
 
+use super::gait::FRAME_TIME;
 use crate::motion::Motion;
 use crate::pose::LocalPose;
 use crate::skeleton::{JointId, Skeleton, SkeletonBuilder};
@@ -131,7 +132,7 @@ pub(super) fn mirror_rotation(rotation: DQuat) -> DQuat {
 }
 
 /// The motion of figures, one a frame.
-pub(super) fn motion_of(figures: &[Figure], frame_time_secs: f64) -> Motion {
+pub(super) fn motion_of(figures: &[Figure]) -> Motion {
     let skeleton = humanoid();
     let poses: Vec<LocalPose> = figures
         .iter()
@@ -144,7 +145,7 @@ pub(super) fn motion_of(figures: &[Figure], frame_time_secs: f64) -> Motion {
         .collect();
     let hips = [JointId::new(HIPS)];
     debug_assert_eq!(skeleton.rest_translation(hips[0]), Vec3::ZERO);
-    Motion::from_poses(skeleton, frame_time_secs, hips, &poses)
+    Motion::from_poses(skeleton, FRAME_TIME, hips, &poses)
 }
 
 /// The joint on the other side, or the same one when it belongs to the trunk.

@@ -74,7 +74,7 @@ pub fn wave(config: &WaveConfig) -> Result<Motion, SampleError> {
             WavingHand::Right => mirrored(&figure),
         })
         .collect();
-    Ok(motion_of(&figures, 1.0 / FRAMES_PER_SEC))
+    Ok(motion_of(&figures))
 }
 
 /// When things happen, in seconds from the first frame.

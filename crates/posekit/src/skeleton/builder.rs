@@ -5,6 +5,7 @@ use std::collections::HashSet;
 use glam::{Quat, Vec3};
 
 use super::{JointId, Link, Skeleton};
+use crate::range::{LONGEST_LENGTH, are_lengths};
 
 /// Why a skeleton could not be built.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -42,6 +43,18 @@ pub enum SkeletonError {
         joint: usize,
         /// Its name.
         name: String,
+    },
+    /// A joint is farther from its parent than posekit works with.
+    #[error(
+        "joint {joint} `{name}` has an offset of {value:e}, which is not within {LONGEST_LENGTH:e}"
+    )]
+    TooFar {
+        /// Index of the joint.
+        joint: usize,
+        /// Its name.
+        name: String,
+        /// The coordinate that is too large.
+        value: f64,
     },
     /// A rest rotation is not of unit length.
     #[error(
@@ -153,7 +166,7 @@ impl SkeletonBuilder {
     ///
     /// # Errors
     /// If there is no joint, a parent does not come before its child or is an End Site, or a rest
-    /// transform is not finite or not a rotation.
+    /// transform is not finite, longer than [`LONGEST_LENGTH`] or not a rotation.
     pub fn build(self) -> Result<Skeleton, SkeletonError> {
         if self.joints.is_empty() {
             return Err(SkeletonError::Empty);
@@ -212,6 +225,14 @@ fn validate(index: usize, joint: &Joint) -> Result<(), SkeletonError> {
         return Err(SkeletonError::NotFinite {
             joint: index,
             name: name(),
+        });
+    }
+    let offset = joint.rest_translation.to_array().map(f64::from);
+    if let Some(value) = offset.into_iter().find(|&value| !are_lengths([value])) {
+        return Err(SkeletonError::TooFar {
+            joint: index,
+            name: name(),
+            value,
         });
     }
     let length = joint.rest_rotation.length();

@@ -157,6 +157,16 @@ impl Skeleton {
         }
     }
 
+    /// The same skeleton in a world turned by `turn` about the origin: only the roots' rest transforms change.
+    pub(crate) fn turned(&self, turn: Quat) -> Self {
+        let mut turned = self.clone();
+        for root in self.roots() {
+            turned.rest_translations[root.index()] = turn * self.rest_translation(root);
+            turned.rest_rotations[root.index()] = turn * self.rest_rotation(root);
+        }
+        turned
+    }
+
     /// The joint's ancestors, its parent first and a root last.
     pub fn ancestors(&self, joint: JointId) -> impl Iterator<Item = JointId> + '_ {
         std::iter::successors(self.parent(joint), |&ancestor| self.parent(ancestor))

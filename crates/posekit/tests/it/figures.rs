@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glam::{Quat, Vec3};
-use posekit::motion::Motion;
+use posekit::motion::{FrameTime, Motion};
 use posekit::pose::LocalPose;
 use posekit::skeleton::{JointId, Skeleton, SkeletonBuilder};
 use proptest::prelude::*;
@@ -109,7 +109,7 @@ pub(crate) fn any_motion() -> impl Strategy<Value = Motion> {
                 .joints()
                 .filter(|joint| translated[joint.index()])
                 .collect();
-            Motion::from_poses(skeleton, 0.05, translated, &poses)
+            Motion::from_poses(skeleton, FrameTime::of_fps(20), translated, &poses)
         })
     })
 }

@@ -3,6 +3,7 @@
 use std::ops::Range;
 use std::str::FromStr;
 
+use posekit::motion::FrameTime;
 use posekit_formats::bvh::edit::{self, ChannelSet, EditError};
 use posekit_formats::bvh::elsewhere;
 use posekit_formats::bvh::{Bvh, BvhJoint};
@@ -129,7 +130,7 @@ fn refused(error: EditError) -> Failure {
     let text = error.to_string();
     match error {
         EditError::BadScale { .. }
-        | EditError::BadFrameTime { .. }
+        | EditError::FrameTime(_)
         | EditError::IncompleteOrder
         | EditError::BadName { .. }
         | EditError::TooManyStars { .. } => Failure::usage(text),
@@ -221,14 +222,11 @@ impl FromStr for Moment {
 
 impl Trim {
     fn frames(self, bvh: &Bvh) -> Result<Range<usize>, Failure> {
-        let frame_time_secs = bvh
-            .motion
-            .as_ref()
-            .map_or(0.0, |motion| motion.frame_time_secs);
-        let start = self.start.first_frame(frame_time_secs)?;
+        let frame_time = bvh.frame_time();
+        let start = self.start.first_frame(frame_time)?;
         let end = self
             .end
-            .map_or(Ok(usize::MAX), |end| end.first_frame(frame_time_secs))?;
+            .map_or(Ok(usize::MAX), |end| end.first_frame(frame_time))?;
         Ok(start..end)
     }
 }
@@ -243,13 +241,13 @@ impl Moment {
         clippy::cast_sign_loss,
         reason = "a number that is not negative; one beyond any frame saturates"
     )]
-    fn first_frame(self, frame_time_secs: f64) -> Result<usize, Failure> {
+    fn first_frame(self, frame_time: FrameTime) -> Result<usize, Failure> {
         match self {
             Self::Frame(frame) => Ok(frame),
-            Self::Secs(_) if frame_time_secs <= 0.0 => {
+            Self::Secs(_) if frame_time.is_none() => {
                 Err(refused(EditError::NoFrameTime).try_next("trim by frame number"))
             }
-            Self::Secs(secs) => Ok((secs / frame_time_secs - AT_FRAME).ceil().max(0.0) as usize),
+            Self::Secs(secs) => Ok((secs / frame_time.secs() - AT_FRAME).ceil().max(0.0) as usize),
         }
     }
 }
@@ -283,8 +281,9 @@ mod tests {
 
     #[test]
     fn a_time_is_the_frame_at_or_after_it() {
-        assert_eq!(Moment::Secs(0.5).first_frame(0.016_666_7).unwrap(), 30);
-        assert_eq!(Moment::Secs(0.51).first_frame(0.016_666_7).unwrap(), 31);
-        assert!(Moment::Secs(0.5).first_frame(0.0).is_err());
+        let sixtieth = FrameTime::new(0.016_666_7).unwrap();
+        assert_eq!(Moment::Secs(0.5).first_frame(sixtieth).unwrap(), 30);
+        assert_eq!(Moment::Secs(0.51).first_frame(sixtieth).unwrap(), 31);
+        assert!(Moment::Secs(0.5).first_frame(FrameTime::NONE).is_err());
     }
 }

@@ -234,7 +234,7 @@ fn select(args: &FkArgs, motion: Motion) -> Result<Selection, Failure> {
         .map(|point| point.attach(&skeleton))
         .collect::<Result<_, _>>()?;
     let motion = if args.rest {
-        Motion::at_rest(skeleton, 1, motion.frame_time_secs(), [])
+        Motion::at_rest(skeleton, 1, motion.frame_time(), [])
     } else {
         motion
     };

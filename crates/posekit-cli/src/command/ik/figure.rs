@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 use posekit::ik::MovedJoint;
-use posekit::motion::{Motion, PositionPolicies, PositionPolicy};
+use posekit::motion::{FrameTime, Motion, PositionPolicies, PositionPolicy};
 use posekit::pose::LocalPose;
 use posekit::rotation::{Axis, angle_between};
 use posekit::skeleton::Skeleton;
@@ -151,10 +151,10 @@ fn put_at_rest(bvh: &mut Bvh, policies: PositionPolicies, root: Option<DVec3>) {
             Channel::Rotation(_) => 0.0,
         }));
     }
-    let frame_time_secs = bvh
-        .motion
-        .as_ref()
-        .map_or(1.0 / 30.0, |motion| motion.frame_time_secs);
+    let frame_time_secs = match bvh.frame_time() {
+        FrameTime::NONE => FrameTime::of_fps(30).secs(),
+        frame_time => frame_time.secs(),
+    };
     bvh.motion = Some(BvhMotion {
         frame_time_secs,
         frame_count: 1,

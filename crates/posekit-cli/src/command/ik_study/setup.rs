@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use fastrand::Rng;
 use glam::DVec3;
-use posekit::motion::Motion;
+use posekit::motion::{FrameTime, Motion};
 use posekit::pose::LocalPose;
 use posekit::skeleton::{JointId, Skeleton};
 use posekit_render::stage::{Actor, SkeletonStyle};
@@ -98,7 +98,7 @@ pub(super) fn motion_of(skeleton: &Arc<Skeleton>, poses: &[LocalPose]) -> Motion
         skeleton.parent(joint).is_none() || !poses.iter().all(stays)
     };
     let moved: Vec<JointId> = skeleton.joints().filter(is_moved).collect();
-    Motion::from_poses(Arc::clone(skeleton), 1.0 / 30.0, moved, poses)
+    Motion::from_poses(Arc::clone(skeleton), FrameTime::of_fps(30), moved, poses)
 }
 
 /// Reads the input and settles everything that is studied.

@@ -3,7 +3,7 @@
 use posekit::body::{Anatomy, NoAnatomy};
 use posekit::check::RelativePositions;
 use posekit::figure::{LengthUnit, RestPose, UpAxis, UpGuess, guess_unit, guess_up};
-use posekit::motion::{Channel, Motion, PositionPolicies};
+use posekit::motion::{Channel, FrameTime, Motion, PositionPolicies};
 use posekit::skeleton::{JointId, Skeleton};
 use posekit_formats::bvh::{Bvh, BvhJoint, EndName};
 
@@ -116,13 +116,17 @@ impl Facts {
 
     /// Frames a second, where the file's frame time gives them.
     pub(super) fn fps(&self) -> Option<f64> {
-        (self.frame_time_secs > 0.0).then(|| 1.0 / self.frame_time_secs)
+        self.frame_time().frames_per_sec()
+    }
+
+    fn frame_time(&self) -> FrameTime {
+        FrameTime::or_none(self.frame_time_secs)
     }
 
     /// From the first frame to the last, in seconds.
     pub(super) fn duration_secs(&self) -> f64 {
         let intervals = u32::try_from(self.frame_count.saturating_sub(1)).unwrap_or(u32::MAX);
-        f64::from(intervals) * self.frame_time_secs.max(0.0)
+        f64::from(intervals) * self.frame_time().secs()
     }
 }
 

@@ -107,7 +107,7 @@ fn frames(facts: &Facts) -> String {
             let length = duration(facts.duration_secs());
             format!("{count} at {} fps, {length} long", trimmed(fps, 2))
         }
-        None => format!("{count} with a frame time of {} s", facts.frame_time_secs),
+        None => format!("{count} with a frame time of {:?} s", facts.frame_time_secs),
     }
 }
 

@@ -4,6 +4,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use posekit::motion::FrameTime;
 use posekit::rotation::EulerOrder;
 use posekit_formats::bvh::{Bvh, WriteOptions, write_to};
 use posekit_formats::report::Import;
@@ -49,12 +50,14 @@ pub(super) fn run(args: &BakeArgs, global: &Global) -> Result<(), Failure> {
         return Err(Failure::usage("--order takes three axes, as ZXY"));
     }
     extension::refuse_other(&args.output, &["bvh"], extension::REDIRECT)?;
+    let frame_time = args.fps.map(FrameTime::of_rate).transpose();
+    let frame_time = frame_time.map_err(|error| Failure::usage(format!("--fps: {error}")))?;
     let scene = scene_file::read(&args.file)?;
     if let Some(fps) = args.fps {
         let frames = (scene.range_secs[1] - scene.range_secs[0]) * fps;
-        if !(fps > 0.0 && frames <= MOST_FRAMES) {
+        if frames > MOST_FRAMES {
             return Err(Failure::usage(
-                "--fps must be a positive rate of at most ten million frames",
+                "--fps makes more than ten million frames of this scene",
             ));
         }
     }
@@ -67,7 +70,9 @@ pub(super) fn run(args: &BakeArgs, global: &Global) -> Result<(), Failure> {
     for warning in load::repair_lines(&name, &report.warnings) {
         console::warning(&warning);
     }
-    let bvh = Bvh::from_motion(&shot.bake(args.fps), args.order);
+    let motion = shot.bake(frame_time);
+    scene_file::refuse_too_far(&motion).map_err(|failure| failure.in_file(&name))?;
+    let bvh = Bvh::from_motion(&motion, args.order);
     let input = Input {
         source: Source::File(args.file.clone()),
         relative: file_name(&args.file),

@@ -1,13 +1,16 @@
 //! `posekit keys reduce`: a dense motion as few keys.
 
 use std::ffi::OsString;
-use std::io::Write;
+use std::io::{self, Write};
 
 use clap::Args;
-use posekit::keyframe::{Interpolation, ReduceConfig, reduce};
+use posekit::keyframe::{Interpolation, KeyedFrames, ReduceConfig, TrackError};
 use posekit::motion::Motion;
 use posekit::rotation::EulerOrder;
-use posekit_formats::scene::{self, EXTENSION, Scene, SkeletonSource};
+use posekit::skeleton::JointId;
+use posekit_formats::scene::{
+    self, EXTENSION, EulerNotation, JointTrack, JointValues, Scene, SkeletonSource, WriteError,
+};
 
 use crate::args::Global;
 use crate::console;
@@ -83,43 +86,89 @@ pub(super) fn run(args: &ReduceArgs, global: &Global) -> Result<(), Failure> {
     let mut scene = Scene::new(SkeletonSource::inline(motion.skeleton()));
     scene.title = name.clone();
     scene.range_secs = [0.0, motion.duration_secs()];
-    scene.frames_per_sec = 1.0 / motion.frame_time_secs();
-    if motion.frame_time_secs() > 0.0 {
+    if let Some(rate) = motion.frame_time().frames_per_sec() {
+        scene.frames_per_sec = rate;
         // What is written must be read again: that is seen before the work is done.
         scene::check(&scene).map_err(|error| in_file(Failure::new(error.to_string())))?;
     }
-    let reduction =
-        reduce(&motion, &config).map_err(|error| in_file(Failure::new(error.to_string())))?;
-    let dense = dense_keys(&motion);
-    // Keys and their text take memory of their own.
-    drop(motion);
-    scene.set_animation(&reduction.animation, args.euler);
-    scene::check(&scene).map_err(|error| in_file(Failure::new(error.to_string())))?;
-    let bytes = scene::write(&scene);
-    drop(scene);
+    let keys = KeyedFrames::of(&motion, &config)
+        .map_err(|error| in_file(Failure::new(error.to_string())))?;
     let one = inputs::Inputs {
         list: vec![input.clone()],
         ..inputs::Inputs::default()
     };
     match Plan::new(&args.output, &one, EXTENSION)?.destination(0) {
-        Destination::Stdout => Ok(console::binary_stdout().write_all(&bytes)?),
+        Destination::Stdout => {
+            let mut out = console::binary_stdout();
+            write(&scene, &keys, args.euler, &motion, &mut out)?;
+            Ok(out.flush()?)
+        }
         Destination::File(path) => {
-            write_whole(path, |file| file.write_all(&bytes))?;
+            write_whole(path, |file| write(&scene, &keys, args.euler, &motion, file))?;
             if !global.quiet {
                 console::note(&format!(
                     "wrote {}: {} in quaternions{}, {} that a key at every frame would take; within {} degrees and {} % of the height",
                     path.display(),
-                    counted(reduction.animation.key_count(), "key"),
+                    counted(keys.key_count(), "key"),
                     args.euler
                         .map_or_else(String::new, |order| format!(" (written as {order} angles)")),
-                    share(reduction.animation.key_count(), dense),
-                    trimmed(reduction.error.angle_deg, 3),
-                    trimmed(100.0 * reduction.error.distance_heights, 3),
+                    share(keys.key_count(), dense_keys(&motion)),
+                    trimmed(keys.error().angle_deg, 3),
+                    trimmed(100.0 * keys.error().distance_heights, 3),
                 ));
             }
             Ok(())
         }
     }
+}
+
+/// Writes the scene and the keys, the tracks of a joint at a time: all keys of a long motion take much more memory
+/// than the motion.
+fn write(
+    scene: &Scene,
+    keys: &KeyedFrames<'_>,
+    euler: Option<EulerOrder>,
+    motion: &Motion,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let skeleton = motion.skeleton();
+    let track = |joint, values: Result<JointValues, TrackError>| {
+        let name = skeleton.unique_name(joint).to_owned();
+        let values = values.map_err(io::Error::other)?;
+        Ok(JointTrack {
+            joint: name,
+            values,
+        })
+    };
+    let translation = |joint| {
+        let values = keys.translation(joint)?;
+        Some(track(
+            joint,
+            values.map(|track| JointValues::Translation(track.into())),
+        ))
+    };
+    let rotation = |joint| {
+        let values = keys.rotation(joint)?;
+        let euler = euler.map(|order| EulerNotation {
+            order,
+            angles_deg: Vec::new(),
+        });
+        let values = values.map(|track| JointValues::Rotation {
+            track: track.into(),
+            euler,
+        });
+        Some(track(joint, values))
+    };
+    let of_joint = |joint| {
+        let both: [&dyn Fn(JointId) -> Option<io::Result<JointTrack>>; 2] =
+            [&translation, &rotation];
+        both.into_iter().filter_map(move |values| values(joint))
+    };
+    let tracks = skeleton.joints().flat_map(of_joint);
+    scene::write_with_tracks(scene, tracks, out).map_err(|error| match error {
+        WriteError::Io(error) => error,
+        error => io::Error::other(error),
+    })
 }
 
 fn dense_keys(motion: &Motion) -> usize {

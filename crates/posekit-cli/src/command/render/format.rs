@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use clap::ValueEnum;
+use posekit::motion::FrameTime;
 
 use crate::console;
 use crate::failure::Failure;
@@ -102,9 +103,10 @@ pub(super) fn of(args: &RenderArgs) -> Result<Product, Failure> {
         } else {
             1000.0
         };
-        if !(fps > 0.0 && fps <= most) {
+        let is_rate = FrameTime::of_rate(fps).is_ok();
+        if !is_rate || fps > most {
             return Err(Failure::usage(format!(
-                "{fps} is no frame rate of .{}: it goes up to {most}",
+                "{fps:?} is no frame rate of .{}: it goes from 1e-9 up to {most}",
                 product.extension()
             )));
         }

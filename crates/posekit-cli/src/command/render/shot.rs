@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::sync::Arc;
 
 use posekit::keyframe::KeyedCamera;
-use posekit::motion::Motion;
+use posekit::motion::{FrameTime, Motion};
 use posekit::skeleton::{JointId, Skeleton};
 use posekit_formats::scene;
 use posekit_render::output::{even_size, spread_times};
@@ -135,7 +135,9 @@ pub(super) fn prepare(
             let import = scene_file::shot(path, scene)?;
             load::refuse_repairs(&name, &import.report, global)?;
             let warnings = load::repair_lines(&name, &import.report.warnings);
-            (import.document.bake(None), warnings)
+            let motion = import.document.bake(None);
+            scene_file::refuse_too_far(&motion).map_err(|failure| failure.in_file(&name))?;
+            (motion, warnings)
         }
         None => motion_of(args, input, global)?,
     };
@@ -148,9 +150,12 @@ pub(super) fn prepare(
         warnings.push(format!("{name}: has no frames; this is its rest pose"));
     }
     if args.rest || motion.frame_count() == 0 {
-        let frame_time = Some(motion.frame_time_secs()).filter(|time| *time > 0.0);
         let skeleton = Arc::clone(motion.skeleton());
-        motion = Motion::at_rest(skeleton, 1, frame_time.unwrap_or(1.0 / 30.0), []);
+        let frame_time = match motion.frame_time() {
+            FrameTime::NONE => FrameTime::of_fps(30),
+            frame_time => frame_time,
+        };
+        motion = Motion::at_rest(skeleton, 1, frame_time, []);
     }
     let (size, size_warning) = size(args, product);
     warnings.extend(size_warning.map(|text| format!("{name}: {text}")));

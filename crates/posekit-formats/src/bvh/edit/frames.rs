@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::EditError;
 use crate::bvh::Bvh;
+use posekit::motion::FrameTime;
 
 /// Keeps the frames `range`, counted from 0; a range that goes past the end stops there.
 ///
@@ -30,16 +31,9 @@ pub fn trim(bvh: &mut Bvh, range: Range<usize>) -> Result<(), EditError> {
 /// Plays the same frames at another speed: only the frame time changes, and no value.
 ///
 /// # Errors
-/// When there is no motion, or the time is not above zero, or is so long or short that it or the
-/// frames a second that it makes are not finite.
+/// When there is no motion, or the time is none that frames can have ([`FrameTime`]).
 pub fn set_frame_time(bvh: &mut Bvh, frame_time_secs: f64) -> Result<(), EditError> {
     let motion = bvh.motion.as_mut().ok_or(EditError::NoMotion)?;
-    let is_time = frame_time_secs > 0.0 && frame_time_secs.is_finite();
-    if !is_time || !frame_time_secs.recip().is_finite() {
-        return Err(EditError::BadFrameTime {
-            secs: frame_time_secs,
-        });
-    }
-    motion.frame_time_secs = frame_time_secs;
+    motion.frame_time_secs = FrameTime::new(frame_time_secs)?.secs();
     Ok(())
 }

@@ -31,6 +31,8 @@ pub use resample::resample;
 pub use rotation_order::set_rotation_order;
 pub use scale::scale;
 
+use posekit::motion::FrameTimeError;
+
 /// Why a document could not be changed as asked. The document is as it was before.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -41,20 +43,21 @@ pub enum EditError {
         /// The factor.
         factor: f64,
     },
-    /// A rate is zero, negative or not finite, or asks for more frames than fit in memory.
-    #[error("cannot make {fps} frames a second of this motion")]
-    BadRate {
+    /// A rate asks for more frames than fit in memory.
+    #[error(
+        "cannot make {fps:?} frames a second of this motion: there would be more than fit in memory"
+    )]
+    TooManyFrames {
         /// The rate that was asked for.
         fps: f64,
     },
-    /// A frame time is zero, negative or not finite, or its rate is.
-    #[error("a frame time must be a number of seconds above zero, and this is {secs}")]
-    BadFrameTime {
-        /// The frame time.
-        secs: f64,
-    },
+    /// A time or a rate that was asked for is none that frames can have.
+    #[error(transparent)]
+    FrameTime(#[from] FrameTimeError),
     /// The motion has no frame time to tell its rate from.
-    #[error("the file's frame time is not above zero, so its frame rate is unknown")]
+    #[error(
+        "the file has no frame time that could be, so its frame rate is unknown: set one with --frame-time"
+    )]
     NoFrameTime,
     /// The document has no motion.
     #[error("has no motion")]

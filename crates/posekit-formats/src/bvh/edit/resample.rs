@@ -1,6 +1,6 @@
 //! Another frame rate.
 
-use posekit::motion::Channel;
+use posekit::motion::{Channel, FrameTime};
 use posekit::rotation::{Axis, EulerOrder, slerp};
 
 use super::EditError;
@@ -25,29 +25,23 @@ const MAX_VALUES: f64 = (1u64 << 32) as f64;
 /// linearly, angles the short way round.
 ///
 /// # Errors
-/// When there is no motion, its frame time is not above zero, or the rate is not a number above zero
-/// that the motion's length allows.
+/// When there is no motion, it has no frame time, or the rate is none that frames can have, or makes more of them
+/// than fit in memory.
 pub fn resample(bvh: &mut Bvh, fps: f64) -> Result<(), EditError> {
-    let bad = EditError::BadRate { fps };
     let motion = bvh.motion.as_ref().ok_or(EditError::NoMotion)?;
-    if !(fps.is_finite() && fps > 0.0 && (1.0 / fps).is_finite()) {
-        return Err(bad);
-    }
-    if motion.frame_time_secs <= 0.0 {
-        return Err(EditError::NoFrameTime);
-    }
-    let old_fps = rate(motion.frame_time_secs);
-    if old_fps == rate(1.0 / fps) {
+    let new = FrameTime::of_rate(fps)?;
+    let old_fps = rate(motion.frame_time()).ok_or(EditError::NoFrameTime)?;
+    if rate(new) == Some(old_fps) {
         return Ok(());
     }
     let step = old_fps / fps;
     let width = bvh.channel_count();
     let Some(last) = motion.frame_count.checked_sub(1) else {
-        return set_frames(bvh, fps, 0, Vec::new());
+        return set_frames(bvh, new, 0, Vec::new());
     };
     let new_last = (as_f64(last) / step + SAME_FRAME_TOLERANCE).floor();
     if (new_last + 1.0) * as_f64(width.max(1)) > MAX_VALUES {
-        return Err(bad);
+        return Err(EditError::TooManyFrames { fps });
     }
     let frame_count = as_count(new_last) + 1;
     let mut sampler = Sampler::new(bvh);
@@ -72,31 +66,33 @@ pub fn resample(bvh: &mut Bvh, fps: f64) -> Result<(), EditError> {
             );
         }
     }
-    set_frames(bvh, fps, frame_count, values)
+    set_frames(bvh, new, frame_count, values)
 }
 
 fn set_frames(
     bvh: &mut Bvh,
-    fps: f64,
+    frame_time: FrameTime,
     frame_count: usize,
     values: Vec<f64>,
 ) -> Result<(), EditError> {
     let motion = bvh.motion.as_mut().ok_or(EditError::NoMotion)?;
-    motion.frame_time_secs = 1.0 / fps;
+    motion.frame_time_secs = frame_time.secs();
     motion.frame_count = frame_count;
     motion.values = values;
     Ok(())
 }
 
 /// Frames a second, whole where the file means a whole number.
-fn rate(frame_time_secs: f64) -> f64 {
-    let fps = 1.0 / frame_time_secs;
+fn rate(frame_time: FrameTime) -> Option<f64> {
+    let fps = frame_time.frames_per_sec()?;
     let whole = fps.round();
-    if whole >= 1.0 && ((fps - whole) / whole).abs() <= WHOLE_RATE_TOLERANCE {
-        whole
-    } else {
-        fps
-    }
+    Some(
+        if whole >= 1.0 && ((fps - whole) / whole).abs() <= WHOLE_RATE_TOLERANCE {
+            whole
+        } else {
+            fps
+        },
+    )
 }
 
 fn is_whole(place: f64) -> bool {

@@ -99,7 +99,7 @@ fn drop_end_names(bvh: &mut Bvh) -> Option<String> {
 fn check_frame_time(bvh: &Bvh, program: Program) -> Result<(), Obstacle> {
     let is_played = matches!(program, Program::Three | Program::Pybvh | Program::Assimp);
     match &bvh.motion {
-        Some(motion) if is_played && motion.frame_time_secs <= 0.0 => Err(Obstacle::NoFrameTime {
+        Some(motion) if is_played && motion.frame_time().is_none() => Err(Obstacle::NoFrameTime {
             program: program.title(),
         }),
         _ => Ok(()),

@@ -234,7 +234,7 @@ fn is_in_file(peculiarity: Peculiarity, spelling: &Spelling, import: &Import<Bvh
         Peculiarity::NoFrameTime => bvh
             .motion
             .as_ref()
-            .is_some_and(|motion| motion.frame_time_secs <= 0.0),
+            .is_some_and(|motion| motion.frame_time().is_none()),
         Peculiarity::TooManyFramesAnnounced => {
             announced.is_some_and(|announced| announced > bvh.frame_count())
         }

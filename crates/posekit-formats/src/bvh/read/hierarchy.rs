@@ -1,11 +1,13 @@
 //! The HIERARCHY section: joints, without recursion.
 
+use super::motion::warn_out_of_range;
 use super::scan::Scanner;
 use super::{MAX_DEPTH, MAX_JOINTS, MAX_NAME_BYTES, number};
 use crate::bvh::document::implied_end_name;
 use crate::bvh::{BvhJoint, EndName};
 use crate::report::{ReadError, ReadErrorKind, WarningCode, quote};
 use posekit::motion::Channel;
+use posekit::range::LONGEST_LENGTH;
 use posekit::rotation::Axis;
 use std::collections::HashMap;
 use std::ops::Range;
@@ -303,7 +305,11 @@ impl Builder {
         let mut offset = [0.0; 3];
         for coordinate in &mut offset {
             scanner.skip_blanks();
+            let at = scanner.pos;
             *coordinate = number::read(scanner, "a number of OFFSET")?;
+            if coordinate.abs() > LONGEST_LENGTH {
+                warn_out_of_range(scanner, at, *coordinate);
+            }
         }
         self.joints[open.joint].offset = offset;
         self.texts[open.joint].end = scanner.pos;

@@ -8,6 +8,7 @@ use super::scan::{Scanner, is_blank};
 use super::{Extent, PROGRESS_BYTES, ReadOptions, RowParser, number};
 use crate::bvh::{BvhMotion, Gap};
 use crate::report::{ReadError, ReadErrorKind, WarningCode};
+use posekit::range::LONGEST_LENGTH;
 
 /// What is wanted of the rows beside their values.
 #[derive(Default)]
@@ -35,13 +36,13 @@ pub(super) fn read(
     if channel_count == 0 {
         return Ok(read_no_rows(scanner, &header));
     }
-    let rows_at = scanner.pos;
-    let reported_before = scanner.reporter.clone();
+    let before = (scanner.pos, scanner.comma, scanner.reporter.clone());
     let mut walk = RowWalk {
         rows: Rows::new(channel_count, values_expected, Lines::Ignored),
         promised: header.frame_count.map(|frames| frames * channel_count),
         parser: options.row_parser,
         keeps_gaps: wanted.gaps.is_some(),
+        notes_out_of_range: false,
         progress,
     };
     if wanted.starts.is_some() {
@@ -50,9 +51,16 @@ pub(super) fn read(
     }
     walk.read(scanner)?;
     if walk.rows.is_out_of_step() && walk.promised != Some(walk.rows.values.len()) {
-        scanner.pos = rows_at;
-        scanner.reporter = reported_before;
+        (scanner.pos, scanner.comma, scanner.reporter) = before.clone();
         walk.rows.restart(Lines::Kept);
+        walk.read(scanner)?;
+    }
+    if has_out_of_range(&walk.rows.values) {
+        // Once more, with the place of each: that takes time, and is hardly ever needed.
+        (scanner.pos, scanner.comma, scanner.reporter) = before;
+        walk.parser = RowParser::Careful;
+        walk.notes_out_of_range = true;
+        walk.rows.restart(walk.rows.lines());
         walk.read(scanner)?;
     }
     if let Some(starts) = wanted.starts {
@@ -66,6 +74,18 @@ pub(super) fn read(
         frame_time_secs,
         frame_count: values.len() / channel_count,
         values,
+    })
+}
+
+/// Whether there is a value that no motion is made of. One that is no number is a gap.
+fn has_out_of_range(values: &[f64]) -> bool {
+    /// Values that are looked at together, without a branch between them.
+    const TOGETHER: usize = 1024;
+    let is_beyond = |value: &f64| value.abs() > LONGEST_LENGTH;
+    values.chunks(TOGETHER).any(|chunk| {
+        chunk
+            .iter()
+            .fold(false, |any, value| any | is_beyond(value))
     })
 }
 
@@ -112,6 +132,8 @@ struct RowWalk<'p> {
     parser: RowParser,
     /// Whether a value that is no number is a gap, NaN until the rows are whole.
     keeps_gaps: bool,
+    /// Whether values beyond the range are noted, each with its place; the parser is the careful one then.
+    notes_out_of_range: bool,
     progress: &'p mut dyn FnMut(usize) -> ControlFlow<()>,
 }
 
@@ -139,6 +161,9 @@ impl RowWalk<'_> {
             let at = scanner.pos;
             match number::read(scanner, "a number") {
                 Ok(value) => {
+                    if self.notes_out_of_range && value.abs() > LONGEST_LENGTH {
+                        warn_out_of_range(scanner, at, value);
+                    }
                     let left = scanner.bytes.len() - scanner.pos;
                     self.rows.push_from(at, value, left);
                 }
@@ -204,6 +229,15 @@ fn take_gaps(values: &mut [f64], channel_count: usize, gaps: &mut Vec<Gap>) {
             });
         }
     }
+}
+
+/// Says that a value is beyond the range of what motions are made of.
+pub(super) fn warn_out_of_range(scanner: &mut Scanner<'_>, at: usize, value: f64) {
+    scanner.warn(WarningCode::ValueOutOfRange, at, || {
+        format!(
+            "a value of {value:?}, which is not within {LONGEST_LENGTH:e}, kept as the file says: no motion can be made of it"
+        )
+    });
 }
 
 fn note_trailing_text(scanner: &mut Scanner<'_>) {

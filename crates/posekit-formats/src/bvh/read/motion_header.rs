@@ -3,6 +3,7 @@
 use super::number;
 use super::scan::Scanner;
 use crate::report::{ReadError, WarningCode};
+use posekit::motion::FrameTime;
 
 /// The frame time when the file gives none: 30 frames a second, what the first BVH files had.
 const DEFAULT_FRAME_TIME_SECS: f64 = 1.0 / 30.0;
@@ -86,9 +87,9 @@ fn read_frame_time(scanner: &mut Scanner<'_>) -> Result<f64, ReadError> {
     skip_colon(scanner);
     let at = scanner.pos;
     let secs = number::read(scanner, "the frame time in seconds")?;
-    if secs <= 0.0 {
+    if let Err(error) = FrameTime::new(secs) {
         scanner.warn(WarningCode::BadFrameTime, at, || {
-            format!("a frame time of {secs} s, kept as the file says")
+            format!("{error}; it is kept as the file says, and all frames count as at one time")
         });
     }
     Ok(secs)

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use glam::DQuat;
 use posekit::keyframe::{KeyedCamera, KeyedLight, KeyedTransform, Property};
+use posekit::range::{LONGEST_LENGTH, LONGEST_SECS, are_lengths};
 use posekit::skeleton::SkeletonError;
 
 use super::SceneProblemKind;
@@ -11,6 +12,7 @@ use super::fields::{Fields, Node, Problems};
 use super::tracks::{NUMBER, QUATERNION, VECTOR, joint_track, property};
 use crate::scene::document::{
     Camera, FASTEST, InlineJoint, Light, MOST_FRAMES, MotionLayer, Prop, Scene, SkeletonSource,
+    frame_time,
 };
 
 /// The whole document, `format` and `version` already looked at.
@@ -20,11 +22,10 @@ pub(super) fn scene(
     problems: &mut Problems,
 ) -> Option<Scene> {
     let title = fields.take_or("title", String::new(), "text", problems, owned);
-    let times = "a start and an end in seconds, the end not before the start";
-    let range_secs = fields.take_or("range_secs", [0.0, 1.0], times, problems, range);
-    let rate = "a rate over 0, and at most 10000";
-    let frames_per_sec = fields.take_or("frames_per_sec", 30.0, rate, problems, |node| {
-        node.number().filter(|&rate| rate > 0.0 && rate <= FASTEST)
+    let range_secs = fields.take_or("range_secs", [0.0, 1.0], &times(), problems, range);
+    let rate = format!("a rate from {:e} to {FASTEST}", 1.0 / LONGEST_SECS);
+    let frames_per_sec = fields.take_or("frames_per_sec", 30.0, &rate, problems, |node| {
+        node.number().filter(|&rate| frame_time(rate).is_some())
     });
     let frames = (range_secs[1] - range_secs[0]) * frames_per_sec;
     if frames.is_nan() || frames > MOST_FRAMES {
@@ -75,8 +76,20 @@ fn path(node: &Node<'_>) -> Option<String> {
     owned(node).filter(|path| !path.is_empty())
 }
 
+/// What a range is expected to be.
+fn times() -> String {
+    format!(
+        "a start and an end in seconds, within {LONGEST_SECS:e} of 0, the end not before the start"
+    )
+}
+
 fn range(node: &Node<'_>) -> Option<[f64; 2]> {
-    node.numbers().filter(|[start, end]| start <= end)
+    let range = node.numbers().filter(|[start, end]| start <= end)?;
+    range.into_iter().all(is_time).then_some(range)
+}
+
+fn is_time(secs: f64) -> bool {
+    secs.abs() <= LONGEST_SECS
 }
 
 fn skeleton(node: &Node<'_>, problems: &mut Problems) -> Option<SkeletonSource> {
@@ -132,10 +145,15 @@ fn inline_joints(list: &Node<'_>, problems: &mut Problems) -> Option<SkeletonSou
             }
             found.unwrap_or(0)
         });
-        let at = fields.take("translation", "three numbers", problems, Node::numbers::<3>);
+        let place = format!("three numbers within {LONGEST_LENGTH:e}");
+        let at = fields.take("translation", &place, problems, |node| {
+            node.numbers::<3>().filter(|&at| are_lengths(at))
+        });
         let quaternion = "a quaternion of four numbers x, y, z, w";
         let turn = [0.0, 0.0, 0.0, 1.0];
-        let turn = fields.take_or("rotation", turn, quaternion, problems, Node::numbers::<4>);
+        let turn = fields.take_or("rotation", turn, quaternion, problems, |node| {
+            node.numbers::<4>().filter(|&turn| are_lengths(turn))
+        });
         let is_end_site = fields.take_or("end_site", false, "true or false", problems, Node::truth);
         fields.finish(problems);
         if let (Some(name), Some(at)) = (name, at) {
@@ -163,15 +181,11 @@ fn inline_joints(list: &Node<'_>, problems: &mut Problems) -> Option<SkeletonSou
 
 fn motion(fields: &mut Fields<'_>, problems: &mut Problems) -> Option<MotionLayer> {
     let file = fields.take("file", "the path of a motion file", problems, path);
-    let start_secs = fields.take_or(
-        "start_secs",
-        0.0,
-        "a time in seconds",
-        problems,
-        Node::number,
-    );
-    let times = "a start and an end in seconds, the end not before the start";
-    let clip_secs = fields.take_or("clip_secs", None, times, problems, |node| {
+    let time = format!("a time in seconds, within {LONGEST_SECS:e} of 0");
+    let start_secs = fields.take_or("start_secs", 0.0, &time, problems, |node| {
+        node.number().filter(|&secs| is_time(secs))
+    });
+    let clip_secs = fields.take_or("clip_secs", None, &times(), problems, |node| {
         range(node).map(Some)
     });
     fields.finish(problems);

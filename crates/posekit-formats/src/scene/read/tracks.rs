@@ -296,7 +296,10 @@ fn track<V: KeyValue + Neg<Output = V>>(
     match Track::with_ends(keys, before, after) {
         Ok(track) => Some(track),
         Err(error) => {
-            problems.at(&list, SceneProblemKind::Inconsistent, error.to_string());
+            let items = list.items().unwrap_or_default();
+            let key = error.key().and_then(|key| items.get(key));
+            let at = key.unwrap_or(&list);
+            problems.at(at, SceneProblemKind::Inconsistent, error.to_string());
             None
         }
     }

@@ -3,6 +3,8 @@
 use super::Names;
 use super::value::{number, numbers, origin, required, required_child};
 use super::xml::Element;
+use posekit::range::{LONGEST_LENGTH, are_lengths};
+
 use crate::report::{ReadError, ReadErrorKind, Reporter, WarningCode, quote};
 use crate::urdf::{UrdfJoint, UrdfJointKind, UrdfLimit, UrdfMimic};
 
@@ -177,6 +179,10 @@ fn sound_mimic(
         return Err((at, format!("{quoted}, which is {}", other.name())));
     }
     let mut factor = |name: &str, default| match number(mimic, name, reporter) {
+        Ok(Some(given)) if !are_lengths([given]) => Err((
+            at,
+            format!("{quoted} with {name} {given:?}, which is not within {LONGEST_LENGTH:e}"),
+        )),
         Ok(given) => Ok(given.unwrap_or(default)),
         Err(error) => Err((at, format!("{quoted} with {name} {}", error.found))),
     };

@@ -2,8 +2,10 @@
 
 use std::borrow::Cow;
 
+use posekit::range::LONGEST_LENGTH;
+
 use super::xml::Element;
-use crate::report::{ReadError, ReadErrorKind, Reporter, quote};
+use crate::report::{ReadError, ReadErrorKind, Reporter, WarningCode, quote};
 use crate::urdf::UrdfOrigin;
 
 /// An attribute that must be there and not be blank.
@@ -93,8 +95,14 @@ pub(super) fn origin(
     let Some(origin) = element.child("origin") else {
         return Ok(UrdfOrigin::default());
     };
+    let xyz = numbers(origin, "xyz", reporter)?.unwrap_or_default();
+    if let Some(value) = xyz.iter().find(|value| value.abs() > LONGEST_LENGTH) {
+        reporter.warn(WarningCode::ValueOutOfRange, origin.at(), || {
+            format!("an origin {value:?} away, which is not within {LONGEST_LENGTH:e}, kept as the file says: no robot can be made of it")
+        });
+    }
     Ok(UrdfOrigin {
-        xyz: numbers(origin, "xyz", reporter)?.unwrap_or_default(),
+        xyz,
         rpy: numbers(origin, "rpy", reporter)?.unwrap_or_default(),
     })
 }

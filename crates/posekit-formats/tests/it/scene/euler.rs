@@ -165,7 +165,7 @@ fn handles_are_read_written_and_refused() {
         pair: HandlePair::Aligned,
     };
     assert_eq!(curves.angles_deg().keys()[0].tangents, expected);
-    let written = String::from_utf8(scene::write(&scene)).unwrap();
+    let written = String::from_utf8(scene::write(&scene).unwrap()).unwrap();
     assert!(written.contains("version = 2\n"), "{written}");
     assert!(written.contains("euler_deg = \"XYZ\"\nkeys"), "{written}");
     assert_eq!(scene::read(written.as_bytes()).unwrap(), scene);
@@ -236,7 +236,7 @@ fn an_animation_keeps_its_modes_in_a_scene() {
     let track = Track::new(vec![key], Extrapolation::Hold).unwrap();
     let sails = skeleton.find("Sails").unwrap();
     same.set_animation(&animation.with_rotation(sails, Some(track)), None);
-    let text = String::from_utf8(scene::write(&same)).unwrap();
+    let text = String::from_utf8(scene::write(&same).unwrap()).unwrap();
     assert!(
         text.contains("euler_deg = \"XYZ\"\nmode = \"quaternion\"\n"),
         "{text}"

@@ -3,6 +3,7 @@
 mod authored_walk;
 mod euler;
 mod reading;
+mod reduced;
 mod refusals;
 mod round_trip;
 mod shots;

@@ -1,6 +1,8 @@
 //! What is wrong with a file, and where.
 
-use posekit_formats::scene::{self, SceneProblemKind as Kind};
+use glam::DVec3;
+use posekit::keyframe::{KeyedCamera, KeyedTransform, Property};
+use posekit_formats::scene::{self, Camera, Prop, Scene, SceneProblemKind as Kind};
 
 use super::{NOD, changed};
 
@@ -64,7 +66,7 @@ fn problems_have_a_place() {
         Kind::WrongValue,
         6,
         "frames_per_sec",
-        "over 0",
+        "from 1e-9 to 10000",
     );
     assert_refused(
         "= [0, 2.5]",
@@ -191,4 +193,127 @@ fn a_thousand_problems_are_counted() {
     let error = scene::read(text.as_bytes()).unwrap_err();
     assert_eq!(error.problems.len() + error.more, 1001);
     assert!(error.problems.len() < 50);
+}
+
+/// Times, rates and lengths that results would not be finite of are refused where they stand.
+#[test]
+fn numbers_beyond_the_range_have_a_place() {
+    let scene = |range: &str, rate: &str, joint: &str, keys: &str| {
+        format!(
+            "format = \"posekit scene\"\nversion = 2\nrange_secs = {range}\nframes_per_sec = {rate}\n[skeleton]\n\
+             joints = [ {{ name = \"a\", translation = {joint} }} ]\n[[track]]\njoint = \"a\"\n\
+             property = \"translation\"\nafter = \"cycle with offset\"\nkeys = [\n{keys}\n]\n"
+        )
+    };
+    let good = (
+        "[0, 1]",
+        "30",
+        "[0, 0, 0]",
+        "{ at = 0, value = [0, 0, 0] }, { at = 1, value = [1, 0, 0] }",
+    );
+    let read = |range, rate, joint, keys| scene::read(scene(range, rate, joint, keys).as_bytes());
+    assert!(read(good.0, good.1, good.2, good.3).is_ok());
+    let key = |at: &str, value: &str| {
+        format!("{{ at = 0, value = [0, 0, 0] }},\n{{ at = {at}, value = [{value}, 0, 0] }}")
+    };
+    let (early, far, late) = (key("1e-300", "1"), key("1", "1e39"), key("1e10", "1"));
+    let steep = good
+        .3
+        .replace("at = 1, value", "at = 1, slope = [1e300, 0, 0], value");
+    for (range, rate, joint, keys, line, path) in [
+        ("[0, 1e300]", good.1, good.2, good.3, 3, "range_secs"),
+        (good.0, "1e-320", good.2, good.3, 4, "frames_per_sec"),
+        (good.0, "1e300", good.2, good.3, 4, "frames_per_sec"),
+        (
+            good.0,
+            good.1,
+            "[0, 1e39, 0]",
+            good.3,
+            6,
+            "skeleton.joints[0].translation",
+        ),
+        (
+            good.0,
+            good.1,
+            good.2,
+            early.as_str(),
+            13,
+            "track[0].keys[1]",
+        ),
+        (good.0, good.1, good.2, far.as_str(), 13, "track[0].keys[1]"),
+        (
+            good.0,
+            good.1,
+            good.2,
+            late.as_str(),
+            13,
+            "track[0].keys[1]",
+        ),
+        (
+            good.0,
+            good.1,
+            good.2,
+            steep.as_str(),
+            12,
+            "track[0].keys[1]",
+        ),
+    ] {
+        let error = read(range, rate, joint, keys).expect_err(path);
+        let first = &error.problems[0];
+        assert_eq!(
+            (first.location.line, first.path.as_str()),
+            (line, path),
+            "{error}"
+        );
+    }
+}
+
+#[test]
+fn a_scene_that_would_not_be_read_is_not_written() {
+    let good = scene::read(NOD.as_bytes()).unwrap();
+    let broken = |change: &dyn Fn(&mut Scene)| {
+        let mut scene = good.clone();
+        change(&mut scene);
+        scene::write(&scene).is_err()
+    };
+    assert!(!broken(&|_| {}));
+    for bad in [f64::NAN, f64::INFINITY, 1e300] {
+        assert!(broken(&|scene| scene.range_secs[1] = bad));
+        assert!(broken(&|scene| scene.frames_per_sec = bad));
+        assert!(broken(&|scene| {
+            scene.cameras.push(Camera {
+                name: String::new(),
+                view: KeyedCamera {
+                    vertical_fov_deg: Property::Fixed(bad),
+                    ..KeyedCamera::default()
+                },
+            });
+        }));
+        assert!(broken(&|scene| {
+            scene.props.push(Prop {
+                name: String::new(),
+                shape: "box".to_owned(),
+                transform: KeyedTransform {
+                    scale: Property::Fixed(DVec3::splat(bad)),
+                    ..KeyedTransform::default()
+                },
+            });
+        }));
+    }
+    assert!(broken(&|scene| scene.frames_per_sec = 1e-320));
+}
+
+/// The inputs that users sent.
+#[test]
+fn cases_are_refused_with_a_place() {
+    for (name, place) in [
+        ("scene_fps_denormal.posekit.toml", ":4:18: frames_per_sec: "),
+        ("scene_cycle_tiny_period.posekit.toml", ": track[0].keys["),
+    ] {
+        let Some(bytes) = crate::cases::bytes(name) else {
+            return;
+        };
+        let error = scene::read(&bytes).expect_err(name).in_file(name);
+        assert!(error.contains(place), "{error}");
+    }
 }

@@ -3,7 +3,7 @@
 use std::convert::Infallible;
 use std::sync::Arc;
 
-use posekit::motion::Motion;
+use posekit::motion::{FrameTime, Motion};
 use posekit::pose::LocalPose;
 use posekit::sample;
 use posekit_formats::scene::{Scene, SceneError, Shot, ShotError, SkeletonSource};
@@ -54,7 +54,7 @@ fn motions_play_one_after_the_other_and_keys_go_over_them() {
     let apart = (baked.rotation(72, baked.rotated_joints()[3]))
         .dot(run.rotation(12, run.rotated_joints()[3]));
     assert!(apart.abs() > 0.99999);
-    assert_eq!(shot.bake(Some(10.0)).frame_count(), 21);
+    assert_eq!(shot.bake(Some(FrameTime::of_fps(10))).frame_count(), 21);
 }
 
 #[test]

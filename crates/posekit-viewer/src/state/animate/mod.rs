@@ -23,7 +23,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use posekit::keyframe::Animation;
-use posekit::motion::Motion;
+use posekit::motion::{FrameTime, Motion};
 use posekit::pose::LocalPose;
 use posekit::skeleton::{JointId, Skeleton};
 use posekit_formats::scene::{FileMotion, MotionFileError, Scene, Shot, ShotError};
@@ -249,12 +249,9 @@ impl Authored {
     /// The time between two frames.
     #[must_use]
     pub fn frame_secs(&self) -> f64 {
-        let rate = self.scene().frames_per_sec;
-        if rate.is_finite() && rate > 0.0 {
-            1.0 / rate
-        } else {
-            1.0 / 30.0
-        }
+        FrameTime::of_rate(self.scene().frames_per_sec)
+            .unwrap_or(FrameTime::of_fps(30))
+            .secs()
     }
 
     /// The frame's time that is nearest to a time. Frames are counted from the start of the range.

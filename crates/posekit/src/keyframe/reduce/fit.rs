@@ -5,13 +5,13 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3};
 
 use super::ReduceConfig;
-use crate::keyframe::animation::{Animation, index_to_f64};
+use crate::keyframe::animation::index_to_f64;
 use crate::keyframe::extrapolation::Extrapolation;
 use crate::keyframe::key::{Interpolation, Keyframe, Tangents};
-use crate::keyframe::track::Track;
+use crate::keyframe::track::{Track, TrackError};
 use crate::keyframe::value::{KeyValue, Meeting};
 use crate::motion::Motion;
-use crate::skeleton::JointId;
+use crate::skeleton::{JointId, Skeleton};
 
 /// How much less than the tolerance a segment is fitted to, so that rounding to `f32` afterwards does not
 /// lift it over.
@@ -84,10 +84,10 @@ impl Fitted for DQuat {
 )]
 fn rounded(value: f64) -> f64 {
     let single = value as f32;
-    let shortest = single.to_string().parse().ok();
-    shortest
-        .filter(|shortest: &f64| shortest.is_finite())
-        .unwrap_or(value)
+    if !single.is_finite() {
+        return value;
+    }
+    single.to_string().parse().unwrap_or(value)
 }
 
 impl<'a> Curves<'a> {
@@ -130,7 +130,7 @@ impl<'a> Curves<'a> {
         config: &ReduceConfig,
         share: f64,
         baked: &mut Motion,
-    ) -> FrameKeys {
+    ) -> Result<FrameKeys, TrackError> {
         let distance = share * config.distance_heights * self.height * MARGIN;
         let angle_rad = config.angle_deg.to_radians() * MARGIN;
         let way = config.interpolation;
@@ -146,9 +146,8 @@ impl<'a> Curves<'a> {
                 angle_rad
             };
             let frames = curve.key_frames(tolerance, way);
-            if let Some(track) = curve.track(&frames, self.motion.frame_time_secs(), way) {
-                bake_rotation(baked, joint, &track);
-            }
+            let track = curve.track(&frames, self.motion.frame_time_secs(), way)?;
+            bake_rotation(baked, joint, &track);
             keys.rotations.push((joint, frames));
         }
         for &joint in self.motion.translated_joints() {
@@ -156,47 +155,71 @@ impl<'a> Curves<'a> {
                 continue;
             };
             let frames = curve.key_frames(distance, way);
-            if let Some(track) = curve.track(&frames, self.motion.frame_time_secs(), way) {
-                bake_translation(baked, joint, &track);
-            }
+            let track = curve.track(&frames, self.motion.frame_time_secs(), way)?;
+            bake_translation(baked, joint, &track);
             keys.translations.push((joint, frames));
         }
-        keys
+        Ok(keys)
     }
 
-    /// A key at every frame.
-    pub(super) fn every_frame(&self) -> FrameKeys {
+    /// A key at every frame, straight ways between them; `baked` becomes what they make.
+    pub(super) fn every_frame(&self, baked: &mut Motion) -> Result<FrameKeys, TrackError> {
         let every = || (0..self.motion.frame_count()).filter_map(|frame| u32::try_from(frame).ok());
+        let (secs, way) = (self.motion.frame_time_secs(), Interpolation::Linear);
         let mut keys = FrameKeys::default();
         for &joint in self.motion.rotated_joints() {
-            if self.rotation(joint).is_some() {
-                keys.rotations.push((joint, every().collect()));
+            if let Some(curve) = self.rotation(joint) {
+                let frames: Vec<u32> = every().collect();
+                bake_rotation(baked, joint, &curve.track(&frames, secs, way)?);
+                keys.rotations.push((joint, frames));
             }
         }
         for &joint in self.motion.translated_joints() {
-            if self.translation(joint).is_some() {
-                keys.translations.push((joint, every().collect()));
+            if let Some(curve) = self.translation(joint) {
+                let frames: Vec<u32> = every().collect();
+                bake_translation(baked, joint, &curve.track(&frames, secs, way)?);
+                keys.translations.push((joint, frames));
             }
         }
-        keys
+        Ok(keys)
     }
 
-    /// The animation of some keys.
-    pub(super) fn animation(&self, keys: &FrameKeys, way: Interpolation) -> Animation {
-        let secs = self.motion.frame_time_secs();
-        let mut animation = Animation::new(Arc::clone(self.motion.skeleton()));
-        for (joint, frames) in &keys.rotations {
-            if let Some(curve) = self.rotation(*joint) {
-                animation = animation.with_rotation(*joint, curve.track(frames, secs, way));
-            }
-        }
-        for (joint, frames) in &keys.translations {
-            if let Some(curve) = self.translation(*joint) {
-                animation = animation.with_translation(*joint, curve.track(frames, secs, way));
-            }
-        }
-        animation
+    /// The track of a joint's rotation; `None` where it has no keys.
+    pub(super) fn rotation_track(
+        &self,
+        keys: &FrameKeys,
+        joint: JointId,
+        way: Interpolation,
+    ) -> Option<Result<Track<DQuat>, TrackError>> {
+        let frames = frames_of(&keys.rotations, joint)?;
+        let curve = self.rotation(joint)?;
+        Some(curve.track(frames, self.motion.frame_time_secs(), way))
     }
+
+    /// The track of a joint's translation; `None` where it has no keys.
+    pub(super) fn translation_track(
+        &self,
+        keys: &FrameKeys,
+        joint: JointId,
+        way: Interpolation,
+    ) -> Option<Result<Track<DVec3>, TrackError>> {
+        let frames = frames_of(&keys.translations, joint)?;
+        let curve = self.translation(joint)?;
+        Some(curve.track(frames, self.motion.frame_time_secs(), way))
+    }
+
+    /// The skeleton that moves.
+    pub(super) fn skeleton(&self) -> &Arc<Skeleton> {
+        self.motion.skeleton()
+    }
+}
+
+/// Keys stand in the order of the joints.
+fn frames_of(keys: &[(JointId, Vec<u32>)], joint: JointId) -> Option<&[u32]> {
+    let at = keys
+        .binary_search_by_key(&joint, |&(joint, _)| joint)
+        .ok()?;
+    Some(&keys[at].1)
 }
 
 fn bake_rotation(motion: &mut Motion, joint: JointId, track: &Track<DQuat>) {
@@ -296,7 +319,7 @@ impl<V: Fitted> Curve<V> {
         })
     }
 
-    fn track(&self, frames: &[u32], secs: f64, way: Interpolation) -> Option<Track<V>> {
+    fn track(&self, frames: &[u32], secs: f64, way: Interpolation) -> Result<Track<V>, TrackError> {
         let keys = frames.iter().map(|&frame| Keyframe {
             time_secs: f64::from(frame) * secs,
             value: self.values[frame as usize].rounded(),
@@ -308,8 +331,7 @@ impl<V: Fitted> Curve<V> {
                 _ => Tangents::Auto,
             },
         });
-        // Values were checked to be finite; a frame time so small that times coincide leaves none.
-        Track::new(keys.collect(), Extrapolation::Hold).ok()
+        Track::new(keys.collect(), Extrapolation::Hold)
     }
 }
 

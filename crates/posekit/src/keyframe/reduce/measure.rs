@@ -38,7 +38,7 @@ impl KeyError {
             let frame_count = BLOCK.min(motion.frame_count() - first);
             let baked = animation.bake(&BakeConfig {
                 start_secs: index_to_f64(first) * motion.frame_time_secs(),
-                frame_time_secs: motion.frame_time_secs(),
+                frame_time: motion.frame_time(),
                 frame_count,
             });
             measure.add(motion, first, &baked, 0, frame_count);
@@ -124,7 +124,7 @@ impl Measure {
 fn part(motion: &Motion, first: usize, count: usize) -> Motion {
     let skeleton = Arc::clone(motion.skeleton());
     let moving = motion.translated_joints().iter().copied();
-    let mut part = Motion::at_rest(skeleton, count, motion.frame_time_secs(), moving);
+    let mut part = Motion::at_rest(skeleton, count, motion.frame_time(), moving);
     for &joint in motion.rotated_joints() {
         for frame in 0..count {
             part.set_rotation(frame, joint, motion.rotation(first + frame, joint));

@@ -13,14 +13,23 @@
 //! inferred. Where no share holds, every frame becomes a key.
 //!
 //! **Cost.** Some tens of evaluations of each joint-frame; `docs/performance.md` has figures. Memory: a second
-//! motion, the curve of one joint in `f64`, and the keys.
+//! motion, the curve of one joint in `f64`, and the keys: all of them for [`reduce`], a number for each and those of one
+//! joint for [`KeyedFrames`].
 
 mod fit;
 mod measure;
 
+use std::fmt;
+use std::sync::Arc;
+
+use glam::{DQuat, DVec3};
+
 use super::animation::Animation;
 use super::key::Interpolation;
+use super::track::{Track, TrackError};
 use crate::motion::Motion;
+use crate::range::{LONGEST_LENGTH, LONGEST_SECS, are_lengths};
+use crate::skeleton::JointId;
 
 pub use measure::KeyError;
 
@@ -29,10 +38,6 @@ pub const LEAST_ANGLE_DEG: f64 = 1e-3;
 
 /// The least distance that can be asked for, in skeleton heights, for the same reason.
 pub const LEAST_DISTANCE_HEIGHTS: f64 = 1e-5;
-
-/// The least time between frames, in seconds: shorter ones make slopes per second that are not numbers, of
-/// places as large as `f32` holds.
-const LEAST_FRAME_TIME_SECS: f64 = 1e-200;
 
 /// How far keys may be from the motion that they stand for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,23 +70,28 @@ pub enum ReduceError {
     #[error("the motion has no frames")]
     NoFrames,
     /// Frames have no times of their own.
-    #[error("the motion's frame time is not positive")]
+    #[error("the motion has no frame time: all frames are at one time")]
     NoFrameTime,
-    /// Frames follow each other so fast that their rate, and slopes per second, are not numbers.
-    #[error("the motion's frame time of {frame_time_secs:e} s is too short for slopes per second")]
-    FrameTimeTooShort {
-        /// The frame time, in seconds.
-        frame_time_secs: f64,
+    /// The last frame is later than keys can be.
+    #[error("the motion lasts {duration_secs:e} s; keys are within {LONGEST_SECS:e} s")]
+    TooLong {
+        /// The time of the last frame, in seconds.
+        duration_secs: f64,
     },
+    /// Numbers that no key has.
+    #[error(transparent)]
+    Track(#[from] TrackError),
     /// More frames than can be numbered.
     #[error("the motion has {frames} frames, more than can be reduced")]
     TooManyFrames {
         /// How many it has.
         frames: usize,
     },
-    /// A rotation or translation is not finite.
-    #[error("the motion has a number that is not finite at frame {frame}")]
-    NotFinite {
+    /// A rotation is not finite, or a translation not within [`LONGEST_LENGTH`].
+    #[error(
+        "the motion has a rotation that is not finite at frame {frame}, or a place not within {LONGEST_LENGTH:e}"
+    )]
+    OutOfRange {
         /// The frame.
         frame: usize,
     },
@@ -119,70 +129,149 @@ pub struct Reduction {
 /// gets none.
 ///
 /// # Errors
-/// [`ReduceError`] when the motion has no frames, no frame time or numbers that are not finite, or the
-/// config asks for less than `f32` resolves.
+/// [`ReduceError`] when the motion has no frames, no frame time or numbers beyond the
+/// [`range`](crate::range), or the config asks for less than `f32` resolves.
 pub fn reduce(motion: &Motion, config: &ReduceConfig) -> Result<Reduction, ReduceError> {
-    /// How often the share is halved in search of one that holds, and how often the gap between one that
-    /// holds and one that does not is halved.
-    const ATTEMPTS: [u32; 2] = [8, 4];
-    check(motion, config)?;
-    let curves = fit::Curves::of(motion);
-    let limit = KeyError {
-        angle_deg: config.angle_deg,
-        distance_heights: config.distance_heights,
-    };
-    let way = config.interpolation;
-    let mut baked = motion.clone();
-    let mut attempt = |share: f64| {
-        let keys = curves.fitted(config, share, &mut baked);
-        let error = measure::between(motion, &baked);
-        error.is_within(&limit).then_some((keys, error))
-    };
-    let (mut share, mut best) = (1.0, attempt(1.0));
-    for _ in 0..ATTEMPTS[0] {
-        if best.is_some() {
-            break;
-        }
-        share *= 0.5;
-        best = attempt(share);
-    }
-    let Some(mut best) = best else {
-        drop(baked);
-        let animation = curves.animation(&curves.every_frame(), Interpolation::Linear);
-        let error = KeyError::between(motion, &animation);
-        return Ok(Reduction { animation, error });
-    };
-    let (mut holds, mut fails) = (share, 2.0 * share);
-    for _ in 0..ATTEMPTS[1] {
-        let middle = 0.5 * (holds + fails);
-        match attempt(middle) {
-            Some(better) => {
-                holds = middle;
-                // A larger share may happen to need more keys.
-                if better.0.count() <= best.0.count() {
-                    best = better;
-                }
-            }
-            None => fails = middle,
-        }
-    }
-    drop(baked);
+    let keys = KeyedFrames::of(motion, config)?;
     Ok(Reduction {
-        animation: curves.animation(&best.0, way),
-        error: best.1,
+        animation: keys.animation()?,
+        error: keys.error(),
     })
+}
+
+/// What [`reduce`] finds, as little as it can be: which frames get a key. Tracks are made of it one at a time, so
+/// that the keys of a long motion, each some hundred bytes, need not be there at once.
+pub struct KeyedFrames<'a> {
+    curves: fit::Curves<'a>,
+    keys: fit::FrameKeys,
+    way: Interpolation,
+    error: KeyError,
+}
+
+/// How many there are, not their millions of numbers.
+impl fmt::Debug for KeyedFrames<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("KeyedFrames")
+            .field("keys", &self.key_count())
+            .field("error", &self.error)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<'a> KeyedFrames<'a> {
+    /// The frames of a motion that get a key.
+    ///
+    /// # Errors
+    /// As [`reduce`].
+    pub fn of(motion: &'a Motion, config: &ReduceConfig) -> Result<Self, ReduceError> {
+        /// How often the share is halved in search of one that holds, and how often the gap between one that
+        /// holds and one that does not is halved.
+        const ATTEMPTS: [u32; 2] = [8, 4];
+        check(motion, config)?;
+        let curves = fit::Curves::of(motion);
+        let limit = KeyError {
+            angle_deg: config.angle_deg,
+            distance_heights: config.distance_heights,
+        };
+        let mut baked = motion.clone();
+        let mut attempt = |share: f64| {
+            let keys = curves.fitted(config, share, &mut baked)?;
+            let error = measure::between(motion, &baked);
+            Ok::<_, TrackError>(error.is_within(&limit).then_some((keys, error)))
+        };
+        let (mut share, mut best) = (1.0, attempt(1.0)?);
+        for _ in 0..ATTEMPTS[0] {
+            if best.is_some() {
+                break;
+            }
+            share *= 0.5;
+            best = attempt(share)?;
+        }
+        let Some(mut best) = best else {
+            let keys = curves.every_frame(&mut baked)?;
+            let error = measure::between(motion, &baked);
+            return Ok(Self {
+                curves,
+                keys,
+                way: Interpolation::Linear,
+                error,
+            });
+        };
+        let (mut holds, mut fails) = (share, 2.0 * share);
+        for _ in 0..ATTEMPTS[1] {
+            let middle = 0.5 * (holds + fails);
+            match attempt(middle)? {
+                Some(better) => {
+                    holds = middle;
+                    // A larger share may happen to need more keys.
+                    if better.0.count() <= best.0.count() {
+                        best = better;
+                    }
+                }
+                None => fails = middle,
+            }
+        }
+        let (keys, error) = best;
+        Ok(Self {
+            curves,
+            keys,
+            way: config.interpolation,
+            error,
+        })
+    }
+
+    /// How many keys there are.
+    pub fn key_count(&self) -> usize {
+        self.keys.count()
+    }
+
+    /// The largest errors at any frame.
+    pub fn error(&self) -> KeyError {
+        self.error
+    }
+
+    /// The track of a joint's rotation, made now; `None` where it has no keys.
+    ///
+    /// # Errors
+    /// [`TrackError`] as [`reduce`].
+    pub fn rotation(&self, joint: JointId) -> Option<Result<Track<DQuat>, TrackError>> {
+        self.curves.rotation_track(&self.keys, joint, self.way)
+    }
+
+    /// The track of a joint's translation, made now; `None` where it has no keys.
+    ///
+    /// # Errors
+    /// [`TrackError`] as [`reduce`].
+    pub fn translation(&self, joint: JointId) -> Option<Result<Track<DVec3>, TrackError>> {
+        self.curves.translation_track(&self.keys, joint, self.way)
+    }
+
+    /// All tracks.
+    fn animation(&self) -> Result<Animation, TrackError> {
+        let skeleton = self.curves.skeleton();
+        let mut animation = Animation::new(Arc::clone(skeleton));
+        for joint in skeleton.joints() {
+            if let Some(track) = self.rotation(joint).transpose()? {
+                animation = animation.with_rotation(joint, Some(track));
+            }
+            if let Some(track) = self.translation(joint).transpose()? {
+                animation = animation.with_translation(joint, Some(track));
+            }
+        }
+        Ok(animation)
+    }
 }
 
 fn check(motion: &Motion, config: &ReduceConfig) -> Result<(), ReduceError> {
     if motion.frame_count() == 0 {
         return Err(ReduceError::NoFrames);
     }
-    if motion.frame_time_secs() <= 0.0 {
+    if motion.frame_time().is_none() {
         return Err(ReduceError::NoFrameTime);
     }
-    let frame_time_secs = motion.frame_time_secs();
-    if frame_time_secs < LEAST_FRAME_TIME_SECS {
-        return Err(ReduceError::FrameTimeTooShort { frame_time_secs });
+    let duration_secs = motion.duration_secs();
+    if duration_secs > LONGEST_SECS {
+        return Err(ReduceError::TooLong { duration_secs });
     }
     if u32::try_from(motion.frame_count()).is_err() {
         let frames = motion.frame_count();
@@ -205,10 +294,13 @@ fn check(motion: &Motion, config: &ReduceConfig) -> Result<(), ReduceError> {
     for frame in 0..motion.frame_count() {
         let mut turning = motion.rotated_joints().iter();
         let mut moving = motion.translated_joints().iter();
-        let is_finite = turning.all(|&joint| motion.rotation(frame, joint).is_finite())
-            && moving.all(|&joint| motion.translation(frame, joint).is_finite());
-        if !is_finite {
-            return Err(ReduceError::NotFinite { frame });
+        let is_in_range = turning.all(|&joint| motion.rotation(frame, joint).is_finite())
+            && moving.all(|&joint| {
+                let place = motion.translation(frame, joint).to_array();
+                are_lengths(place.map(f64::from))
+            });
+        if !is_in_range {
+            return Err(ReduceError::OutOfRange { frame });
         }
     }
     Ok(())

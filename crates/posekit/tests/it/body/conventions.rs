@@ -9,7 +9,7 @@
 use std::sync::Arc;
 
 use glam::{Quat, Vec3};
-use posekit::motion::Motion;
+use posekit::motion::{FrameTime, Motion};
 use posekit::skeleton::{JointId, Skeleton, SkeletonBuilder};
 
 type Joint = (&'static str, [f32; 3]);
@@ -572,7 +572,7 @@ impl Convention {
             };
         }
         let skeleton: Arc<Skeleton> = Arc::new(builder.build().unwrap());
-        let mut motion = Motion::at_rest(skeleton, 8, 0.1, [JointId::new(0)]);
+        let mut motion = Motion::at_rest(skeleton, 8, FrameTime::of_fps(10), [JointId::new(0)]);
         for frame in 0..8 {
             motion.set_translation(frame, JointId::new(0), joints[0].offset);
             for (index, joint) in joints.iter().enumerate().filter(|(_, j)| !j.is_end) {

@@ -8,6 +8,7 @@ use posekit::keyframe::edit::{
     mirror_axis, mirror_pose,
 };
 use posekit::keyframe::{Animation, BakeConfig, Extrapolation, Interpolation, Track};
+use posekit::motion::FrameTime;
 use posekit::pose::{GlobalPose, LocalPose};
 use posekit::rotation::Axis;
 use posekit::sample;
@@ -74,7 +75,7 @@ fn keyed_poses_come_back_and_blend_between() {
 #[test]
 fn a_bake_has_the_frames_of_its_range_and_rate() {
     let (animation, _) = two_poses();
-    let config = BakeConfig::of_range([0.0, 1.0], 30.0);
+    let config = BakeConfig::of_range([0.0, 1.0], FrameTime::of_fps(30));
     assert_eq!(config.frame_count, 31);
     let motion = animation.bake(&config);
     assert_eq!(motion.frame_count(), 31);
@@ -82,10 +83,22 @@ fn a_bake_has_the_frames_of_its_range_and_rate() {
         let time = config.start_secs + frame as f64 / 30.0;
         assert_same(&motion.pose(frame), &animation.sample(time), 1e-6);
     }
-    assert_eq!(BakeConfig::of_range([0.0, 0.99], 30.0).frame_count, 30);
-    assert_eq!(BakeConfig::of_range([1.0, 0.0], 30.0).frame_count, 0);
-    assert_eq!(BakeConfig::of_range([0.0, f64::NAN], 30.0).frame_count, 0);
-    assert_eq!(BakeConfig::of_range([0.0, 1.0], 0.0).frame_count, 1);
+    assert_eq!(
+        BakeConfig::of_range([0.0, 0.99], FrameTime::of_fps(30)).frame_count,
+        30
+    );
+    assert_eq!(
+        BakeConfig::of_range([1.0, 0.0], FrameTime::of_fps(30)).frame_count,
+        0
+    );
+    assert_eq!(
+        BakeConfig::of_range([0.0, f64::NAN], FrameTime::of_fps(30)).frame_count,
+        0
+    );
+    assert_eq!(
+        BakeConfig::of_range([0.0, 1.0], FrameTime::NONE).frame_count,
+        1
+    );
 }
 
 #[test]

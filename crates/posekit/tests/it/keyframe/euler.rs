@@ -10,6 +10,7 @@ use posekit::keyframe::{
     Interpolation, Keyframe, PoseSampler, RotationTrack, Tangents, Track, TrackError, to_euler,
     to_quaternion,
 };
+use posekit::motion::FrameTime;
 use posekit::pose::LocalPose;
 use posekit::rotation::{Axis, EulerOrder, angle_between};
 use posekit::skeleton::{JointId, SkeletonBuilder};
@@ -142,7 +143,7 @@ fn incomplete_orders_and_handles_that_go_backwards_are_refused() {
     assert!(track(with(handle(0.5, 1.0))).is_ok());
     let backwards = TrackError::HandleBackwards { index: 0 };
     assert_eq!(track(with(handle(-0.5, 1.0))), Err(backwards));
-    let endless = TrackError::TangentNotFinite { index: 0 };
+    let endless = TrackError::TangentOutOfRange { index: 0 };
     assert_eq!(track(with(handle(f64::NAN, 1.0))), Err(endless));
     assert_eq!(track(with(handle(f64::INFINITY, 1.0))), Err(endless));
     let none = Handle {
@@ -290,7 +291,7 @@ fn animations_bake_and_sample_euler_curves() {
         (animation.key_count(), animation.range_secs()),
         (2, Some([0.0, 4.0]))
     );
-    let motion = animation.bake(&BakeConfig::of_range([0.0, 4.0], 30.0));
+    let motion = animation.bake(&BakeConfig::of_range([0.0, 4.0], FrameTime::of_fps(30)));
     let sampler = PoseSampler::new(&animation);
     let mut pose = LocalPose::rest(animation.skeleton());
     for frame in 0..motion.frame_count() {

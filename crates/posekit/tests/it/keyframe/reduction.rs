@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec3, Quat, Vec3};
 use posekit::keyframe::{Animation, Interpolation, ReduceConfig, ReduceError, reduce};
-use posekit::motion::Motion;
+use posekit::motion::{FrameTime, Motion};
 use posekit::pose::{GlobalPose, LocalPose, forward_kinematics};
 use posekit::rotation::{angle_between, exp};
 use posekit::sample;
@@ -59,7 +59,7 @@ proptest! {
     ) {
         let skeleton = snake();
         let frames = turns.len().div_ceil(6);
-        let mut motion = Motion::at_rest(Arc::clone(&skeleton), frames, 1.0 / 30.0, [JointId::new(0)]);
+        let mut motion = Motion::at_rest(Arc::clone(&skeleton), frames, FrameTime::of_fps(30), [JointId::new(0)]);
         let mut state = [Quat::IDENTITY; 6];
         let mut place = Vec3::ZERO;
         for (index, (turn, step)) in turns.iter().enumerate() {
@@ -110,7 +110,12 @@ fn a_walk_needs_few_keys() {
 #[test]
 fn what_does_not_move_needs_one_key_or_none() {
     let skeleton = snake();
-    let mut motion = Motion::at_rest(Arc::clone(&skeleton), 50, 0.1, [JointId::new(0)]);
+    let mut motion = Motion::at_rest(
+        Arc::clone(&skeleton),
+        50,
+        FrameTime::of_fps(10),
+        [JointId::new(0)],
+    );
     for frame in 0..50 {
         motion.set_rotation(frame, JointId::new(2), Quat::from_rotation_x(0.5));
     }
@@ -144,20 +149,20 @@ fn what_cannot_be_reduced_says_why() {
         with(|c| c.interpolation = Interpolation::Step),
         ReduceError::NoSuchFit
     );
-    let none = Motion::at_rest(snake(), 0, 0.1, []);
+    let none = Motion::at_rest(snake(), 0, FrameTime::of_fps(10), []);
     assert_eq!(
         reduce(&none, &ReduceConfig::default()),
         Err(ReduceError::NoFrames)
     );
-    let still = Motion::at_rest(snake(), 3, 0.0, []);
+    let still = Motion::at_rest(snake(), 3, FrameTime::NONE, []);
     assert_eq!(
         reduce(&still, &ReduceConfig::default()),
         Err(ReduceError::NoFrameTime)
     );
-    let mut broken = Motion::at_rest(snake(), 3, 0.1, []);
+    let mut broken = Motion::at_rest(snake(), 3, FrameTime::of_fps(10), []);
     broken.set_rotation(2, JointId::new(1), Quat::from_xyzw(f32::NAN, 0.0, 0.0, 1.0));
     assert_eq!(
         reduce(&broken, &ReduceConfig::default()),
-        Err(ReduceError::NotFinite { frame: 2 })
+        Err(ReduceError::OutOfRange { frame: 2 })
     );
 }

@@ -4,7 +4,10 @@
 use std::sync::Arc;
 
 use glam::{DMat3, DQuat, DVec3, Vec3};
-use posekit::motion::{Channel, ChannelLayout, Motion, PositionPolicies, PositionPolicy};
+use posekit::motion::{
+    Channel, ChannelLayout, FrameTime, Motion, PositionPolicies, PositionPolicy,
+};
+use posekit::range::LONGEST_LENGTH;
 use posekit::rotation::Axis;
 use posekit::skeleton::{JointId, SkeletonBuilder};
 use proptest::prelude::*;
@@ -98,7 +101,7 @@ proptest! {
         const POLICIES: [PositionPolicy; 3] =
             [PositionPolicy::Replace, PositionPolicy::Add, PositionPolicy::Ignore];
         let policy = PositionPolicies { root: POLICIES[root], others: POLICIES[others] };
-        let motion = Motion::from_channel_rows(Arc::clone(&skeleton), 0.04, &layout, &rows, policy);
+        let motion = Motion::from_channel_rows(Arc::clone(&skeleton), FrameTime::of_fps(25), &layout, &rows, policy).unwrap();
         prop_assert_eq!(motion.frame_count(), rows.len() / layout.column_count());
         for (frame, row) in rows.chunks_exact(layout.column_count()).enumerate() {
             for joint in skeleton.joints() {
@@ -116,7 +119,7 @@ proptest! {
     fn a_partial_last_row_is_left_out((skeleton, layout, mut rows) in any_rows(), more in 1_usize..40) {
         let whole = rows.len() / layout.column_count();
         rows.extend(std::iter::repeat_n(1.0, more % layout.column_count()));
-        let motion = Motion::from_channel_rows(skeleton, 0.04, &layout, &rows, PositionPolicy::Replace);
+        let motion = Motion::from_channel_rows(skeleton, FrameTime::of_fps(25), &layout, &rows, PositionPolicy::Replace).unwrap();
         prop_assert_eq!(motion.frame_count(), whole);
     }
 }
@@ -136,7 +139,9 @@ fn root_translation(channels: &[Channel], policy: PositionPolicy) -> Vec3 {
         })
         .collect();
     let skeleton = Arc::new(builder.build().unwrap());
-    Motion::from_channel_rows(skeleton, 0.04, &layout, &row, policy).translation(0, root)
+    Motion::from_channel_rows(skeleton, FrameTime::of_fps(25), &layout, &row, policy)
+        .unwrap()
+        .translation(0, root)
 }
 
 #[test]
@@ -168,8 +173,14 @@ fn roots_and_other_joints_each_have_their_own_policy() {
     let rows = [-7.0, 7.0];
     let places = |root, others| {
         let policies = PositionPolicies { root, others };
-        let motion =
-            Motion::from_channel_rows(Arc::clone(&skeleton), 0.04, &layout, &rows, policies);
+        let motion = Motion::from_channel_rows(
+            Arc::clone(&skeleton),
+            FrameTime::of_fps(25),
+            &layout,
+            &rows,
+            policies,
+        )
+        .unwrap();
         (motion.translation(0, foot), motion.translation(0, prop))
     };
     use PositionPolicy::{Add, Ignore, Replace};
@@ -196,11 +207,12 @@ fn angles_of_many_turns_keep_their_precision() {
         let rows = [30.0 + 360.0 * turns];
         let motion = Motion::from_channel_rows(
             Arc::clone(&skeleton),
-            0.04,
+            FrameTime::of_fps(25),
             &layout,
             &rows,
             PositionPolicy::Replace,
-        );
+        )
+        .unwrap();
         let expected = glam::Quat::from_rotation_y(30.0_f32.to_radians());
         assert!(
             angle_rad(motion.rotation(0, JointId::new(0)), expected) < 1e-6,
@@ -215,10 +227,85 @@ fn a_layout_without_columns_makes_no_frames() {
     let skeleton = Arc::new(hand_drawn());
     let motion = Motion::from_channel_rows(
         skeleton,
-        0.04,
+        FrameTime::of_fps(25),
         &layout,
         &[1.0, 2.0],
         PositionPolicy::Replace,
-    );
+    )
+    .unwrap();
     assert_eq!(motion.frame_count(), 0);
+}
+
+/// What is beyond the range is refused with its place, and a motion that was there stays what it was.
+#[test]
+fn values_that_no_motion_is_made_of_are_refused_with_their_place() {
+    let skeleton = Arc::new(hand_drawn());
+    let root = JointId::new(0);
+    let layout = ChannelLayout::new([
+        (root, Channel::Position(Axis::X)),
+        (root, Channel::Rotation(Axis::Y)),
+    ]);
+    let mut rows = vec![0.5; 2 * 5000];
+    let good = Motion::from_channel_rows(
+        Arc::clone(&skeleton),
+        FrameTime::of_fps(25),
+        &layout,
+        &rows,
+        PositionPolicy::Add,
+    )
+    .unwrap();
+    for value in [
+        1e39,
+        -1e300,
+        LONGEST_LENGTH.next_up(),
+        f64::INFINITY,
+        f64::NAN,
+    ] {
+        for (column, channel) in ["Xposition", "Yrotation"].into_iter().enumerate() {
+            rows[2 * 4321 + column] = value;
+            let mut motion = good.clone();
+            let error = motion
+                .set_channel_rows(
+                    FrameTime::of_fps(50),
+                    &layout,
+                    &rows,
+                    PositionPolicy::Replace,
+                )
+                .unwrap_err();
+            assert_eq!(
+                (error.frame, error.column, error.joint),
+                (4321, column, root)
+            );
+            assert_eq!(error.channel.name(), channel);
+            assert!(error.to_string().contains("at frame 4321"), "{error}");
+            assert_eq!(motion.frame_time(), good.frame_time());
+            assert_eq!(motion.translation(4321, root), good.translation(4321, root));
+            rows[2 * 4321 + column] = 0.5;
+        }
+    }
+    // As large as it may be: what is made of it is finite, squares too.
+    rows[0] = LONGEST_LENGTH;
+    rows[1] = -LONGEST_LENGTH;
+    let policy = PositionPolicy::Add;
+    let motion =
+        Motion::from_channel_rows(skeleton, FrameTime::of_fps(25), &layout, &rows, policy).unwrap();
+    let global = motion.to_global();
+    for joint in global.skeleton().joints() {
+        assert!(global.position(0, joint).length_squared().is_finite());
+        assert!((global.orientation(0, joint).length() - 1.0).abs() < 1e-5);
+    }
+}
+
+#[test]
+fn the_first_place_that_is_too_far_away_is_found() {
+    let skeleton = Arc::new(hand_drawn());
+    let (root, child) = (JointId::new(0), JointId::new(1));
+    let mut motion = Motion::at_rest(skeleton, 43, FrameTime::of_fps(25), [root, child]);
+    assert_eq!(motion.first_out_of_range(), None);
+    motion.set_translation(42, root, Vec3::Y * f32::MAX);
+    assert_eq!(motion.first_out_of_range(), Some((42, root)));
+    motion.set_translation(17, child, Vec3::Z * f32::NAN);
+    assert_eq!(motion.first_out_of_range(), Some((17, child)));
+    motion.set_translation(16, root, Vec3::X * f32::NEG_INFINITY);
+    assert_eq!(motion.first_out_of_range(), Some((16, root)));
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glam::{Quat, Vec3};
-use posekit::motion::Motion;
+use posekit::motion::{FrameTime, Motion};
 use posekit::pose::LocalPose;
 use posekit::skeleton::JointId;
 use proptest::prelude::*;
@@ -46,7 +46,7 @@ proptest! {
             .chain(poses)
             .collect();
         let translated = motion.translated_joints().to_vec();
-        let later = Motion::from_poses(Arc::clone(motion.skeleton()), 0.05, translated, &later);
+        let later = Motion::from_poses(Arc::clone(motion.skeleton()), FrameTime::of_fps(20), translated, &later);
         let (here, there) = (motion.to_global(), later.to_global());
         for frame in 0..motion.frame_count() {
             prop_assert_eq!(here.pose(frame), there.pose(frame + shift));
@@ -99,7 +99,7 @@ proptest! {
 
 #[test]
 fn a_motion_without_frames_is_no_trouble() {
-    let motion = Motion::at_rest(Arc::new(hand_drawn()), 0, 0.04, []);
+    let motion = Motion::at_rest(Arc::new(hand_drawn()), 0, FrameTime::of_fps(25), []);
     let global = motion.to_global();
     assert_eq!((motion.frame_count(), motion.duration_secs()), (0, 0.0));
     assert_eq!(
@@ -112,14 +112,14 @@ fn a_motion_without_frames_is_no_trouble() {
 #[test]
 #[should_panic(expected = "frame 3 of 3")]
 fn a_frame_in_the_unused_part_of_a_block_is_out_of_range() {
-    let motion = Motion::at_rest(Arc::new(hand_drawn()), 3, 0.04, []);
+    let motion = Motion::at_rest(Arc::new(hand_drawn()), 3, FrameTime::of_fps(25), []);
     motion.to_global().position(3, JointId::new(0));
 }
 
 #[test]
 fn setting_one_joint_of_one_frame_leaves_the_rest() {
     let (hips, leg) = (JointId::new(0), JointId::new(4));
-    let mut motion = Motion::at_rest(Arc::new(hand_drawn()), 11, 0.04, [hips]);
+    let mut motion = Motion::at_rest(Arc::new(hand_drawn()), 11, FrameTime::of_fps(25), [hips]);
     let turn = Quat::from_rotation_x(0.5);
     motion.set_rotation(9, leg, turn);
     motion.set_translation(9, hips, Vec3::ONE);

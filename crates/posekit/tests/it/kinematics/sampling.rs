@@ -3,19 +3,19 @@
 use std::sync::Arc;
 
 use glam::{Quat, Vec3};
-use posekit::motion::Motion;
+use posekit::motion::{FrameTime, Motion};
 use posekit::pose::LocalPose;
 use posekit::skeleton::JointId;
 use proptest::prelude::*;
 
 use crate::figures::{angle_rad, any_motion, hand_drawn};
 
-const FRAME_TIME_SECS: f64 = 0.25;
+const FRAME_TIME: FrameTime = FrameTime::of_fps(4);
 
 /// Hips turn by a quarter and move by one unit from each of three frames to the next.
 fn turning() -> Motion {
     let hips = JointId::new(0);
-    let mut motion = Motion::at_rest(Arc::new(hand_drawn()), 3, FRAME_TIME_SECS, [hips]);
+    let mut motion = Motion::at_rest(Arc::new(hand_drawn()), 3, FRAME_TIME, [hips]);
     for (frame, turns) in [0.0_f32, 1.0, 2.0].into_iter().enumerate() {
         let quarter = std::f32::consts::FRAC_PI_2;
         motion.set_rotation(frame, hips, Quat::from_rotation_y(quarter * turns));
@@ -49,7 +49,7 @@ fn halfway_is_half_the_turn_and_half_the_way() {
 #[test]
 fn the_ends_hold() {
     let motion = turning();
-    let last = 2.0 * FRAME_TIME_SECS;
+    let last = 2.0 * FRAME_TIME.secs();
     assert_eq!(motion.duration_secs(), last);
     for time_secs in [-1e300, -1.0, -0.0, 0.0, f64::NEG_INFINITY, f64::NAN] {
         assert_eq!(motion.sample(time_secs), motion.pose(0), "{time_secs} s");
@@ -61,7 +61,7 @@ fn the_ends_hold() {
 
 #[test]
 fn without_time_between_frames_the_first_holds() {
-    let mut motion = Motion::at_rest(Arc::new(hand_drawn()), 2, 0.0, []);
+    let mut motion = Motion::at_rest(Arc::new(hand_drawn()), 2, FrameTime::NONE, []);
     motion.set_rotation(1, JointId::new(0), Quat::from_rotation_y(1.0));
     assert_eq!(motion.sample(0.0), motion.pose(0));
     assert_eq!(motion.sample(5.0), motion.pose(0));
@@ -70,7 +70,7 @@ fn without_time_between_frames_the_first_holds() {
 #[test]
 fn the_sign_of_a_quaternion_makes_no_difference() {
     let hips = JointId::new(0);
-    let mut motion = Motion::at_rest(Arc::new(hand_drawn()), 2, 1.0, []);
+    let mut motion = Motion::at_rest(Arc::new(hand_drawn()), 2, FrameTime::of_fps(1), []);
     motion.set_rotation(0, hips, Quat::from_rotation_y(0.2));
     motion.set_rotation(1, hips, -Quat::from_rotation_y(0.6));
     let halfway = motion.sample(0.5).rotations[0];

@@ -89,7 +89,12 @@ impl Rows {
         starts
     }
 
-    /// Forgets everything, to read the same rows again with another meaning of line ends.
+    /// What line ends mean.
+    pub(super) fn lines(&self) -> Lines {
+        self.lines
+    }
+
+    /// Forgets everything, to read the same rows again, line ends with a meaning of their own.
     pub(super) fn restart(&mut self, lines: Lines) {
         let mut values = std::mem::take(&mut self.values);
         values.clear();
