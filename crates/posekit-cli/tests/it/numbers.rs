@@ -46,12 +46,10 @@ fn a_frame_time_that_nothing_can_be_divided_by_counts_as_none() {
     let folder = Folder::with_arm();
     for time in ["5e-324", "1e-300", "1e300"] {
         folder.write("odd.bvh", arm_at(time));
-        let found = folder.succeed(&["check", "odd.bvh"]);
+        // All frames at one time are an error of their own.
+        let found = folder.run(&["check", "odd.bvh"]).stdout;
         assert!(found.contains("bad-frame-time"), "{found}");
-        assert!(
-            found.contains(":17:13") || found.contains("17:13"),
-            "{found}"
-        );
+        assert!(found.contains("line 18, column 13"), "{found}");
         let info = folder.succeed(&["info", "odd.bvh"]);
         assert!(info.contains(&format!("frame time of {time} s")), "{info}");
         let csv = folder.succeed(&["fk", "odd.bvh", "-o", "-", "--format", "csv"]);
