@@ -16,7 +16,7 @@ use super::linkage::Linkage;
 use super::problem::{IkProblem, TraceDetail};
 use super::solve::Progress;
 use super::trace::TraceIteration;
-use super::turn::shortest_turn;
+use super::turn::{shortest_turn, shortest_turn_and_roll};
 use super::workspace::IkWorkspace;
 use crate::pose::LocalPose;
 use crate::skeleton::Skeleton;
@@ -39,11 +39,18 @@ pub struct Aim {
 #[inline]
 pub fn aim(aim: &Aim) -> DQuat {
     let to_target = aim.target - aim.joint;
-    let Some(turn) = shortest_turn(aim.forward, to_target) else {
+    match aim.up {
+        None => shortest_turn(aim.forward, to_target).unwrap_or(DQuat::IDENTITY),
+        Some([up, wanted]) => shortest_turn_and_roll(aim.forward, to_target, up, wanted)
+            .unwrap_or_else(|| aim_carefully(aim.forward, to_target, up, wanted)),
+    }
+}
+
+/// The turn and the roll one after the other, each where there is one.
+#[cold]
+fn aim_carefully(forward: DVec3, to_target: DVec3, up: DVec3, wanted: DVec3) -> DQuat {
+    let Some(turn) = shortest_turn(forward, to_target) else {
         return DQuat::IDENTITY;
-    };
-    let Some([up, wanted]) = aim.up else {
-        return turn;
     };
     let line_sq = to_target.length_squared();
     let aside = |v: DVec3| v - to_target * (v.dot(to_target) / line_sq);

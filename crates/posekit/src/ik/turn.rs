@@ -39,6 +39,48 @@ pub(crate) fn shortest_turn(a: DVec3, b: DVec3) -> Option<DQuat> {
     Some(DQuat::from_vec4(vector.extend(scalar) * (1.0 / norm)))
 }
 
+/// Turns and rolls this near to half a turn (one plus the cosine), and vectors this near to the line (the sine), are left
+/// to the careful way: in half-angle form so many digits are lost there.
+pub(crate) const NEAR_NOTHING: f64 = 1e-3;
+
+/// The shortest turn from the direction of `a` to that of `b`, and after it the roll about `b` that brings `up` as near
+/// to the direction `wanted` as can be.
+///
+/// Both are kept in half-angle form, of no particular length, and brought to unit length once, together: three square
+/// roots and one division. `None` where one of them is near half a turn or a vector lies near the line, where digits are
+/// lost: then they are to be found one after the other.
+#[inline]
+pub(crate) fn shortest_turn_and_roll(
+    a: DVec3,
+    b: DVec3,
+    up: DVec3,
+    wanted: DVec3,
+) -> Option<DQuat> {
+    let line_sq = b.length_squared();
+    let (dot, vector) = (a.dot(b), a.cross(b));
+    let size = (a.length_squared() * line_sq).sqrt();
+    let scalar = size + dot;
+    // Half of what the turn, which is `2 size scalar` too long, makes of `up`.
+    let turned = up * (scalar * dot) + vector * vector.dot(up) + vector.cross(up) * scalar;
+    // Cosine and sine of the roll, of the parts across the line, times the same length.
+    let cosine = line_sq * turned.dot(wanted) - turned.dot(b) * wanted.dot(b);
+    let sine = b.dot(turned.cross(wanted));
+    let radius_sq = cosine * cosine + line_sq * (sine * sine);
+    let radius = radius_sq.sqrt();
+    let roll = DQuat::from_vec4((b * sine).extend(radius + cosine));
+    let both = roll * DQuat::from_vec4(vector.extend(scalar));
+    let norm_sq = both.length_squared();
+    let longest = line_sq * scalar * size;
+    let longest_sq = longest * longest * (up.length_squared() * wanted.length_squared());
+    let is_clear = scalar > NEAR_NOTHING * size
+        && radius + cosine > NEAR_NOTHING * radius
+        && radius_sq > NEAR_NOTHING * NEAR_NOTHING * longest_sq
+        // Nothing came near the ends of the range on the way.
+        && norm_sq > 1e-250
+        && norm_sq < 1e250;
+    is_clear.then(|| both * (1.0 / norm_sq.sqrt()))
+}
+
 /// A unit vector perpendicular to `v`: its cross product with the coordinate axis along which `v` is
 /// smallest, the first of these if there are several.
 pub(crate) fn perpendicular(v: DVec3) -> DVec3 {

@@ -15,7 +15,7 @@
 //! about an axis perpendicular to it that depends on nothing but its direction. Bones without length, and
 //! targets at the upper joint, give finite turns.
 //!
-//! **Cost.** About ten square roots; no trigonometry unless softness is asked for.
+//! **Cost.** Seven square roots and three divisions; no trigonometry unless softness is asked for.
 
 use glam::{DQuat, DVec3};
 
@@ -24,7 +24,7 @@ use super::linkage::Linkage;
 use super::problem::{IkProblem, TraceDetail};
 use super::solve::Progress;
 use super::trace::TraceIteration;
-use super::turn::{perpendicular, shortened, shortest_turn};
+use super::turn::{NEAR_NOTHING, perpendicular, shortened, shortest_turn, shortest_turn_and_roll};
 use super::workspace::IkWorkspace;
 use crate::pose::LocalPose;
 use crate::rotation::exp;
@@ -77,41 +77,104 @@ impl TwoBone {
 /// Solves two bones. See the module's documentation.
 #[inline]
 pub fn two_bone(bones: &TwoBone) -> TwoBoneTurns {
+    let &TwoBone { upper, target, .. } = bones;
+    let (middle, end) = opened(bones).unwrap_or_else(|| opened_carefully(bones));
+    let to_target = target - upper;
+    let rolled = bones.pole.and_then(|pole| {
+        let to_middle = bones.middle - upper;
+        shortest_turn_and_roll(end, to_target, to_middle, pole - upper)
+    });
+    TwoBoneTurns {
+        upper: rolled.unwrap_or_else(|| reached_carefully(bones, end)),
+        middle,
+    }
+}
+
+/// The middle joint's turn, and where the end is after it, seen from the upper joint. `None` where the bones are nearly
+/// in one line, or the turn is nearly half a turn: then the plane is to be chosen, and digits are lost.
+///
+/// Cosine and sine of the angle between the bones, now and as it should be, are kept times the product of both lengths:
+/// no direction is computed.
+#[inline]
+fn opened(bones: &TwoBone) -> Option<(DQuat, DVec3)> {
     let &TwoBone {
         upper, middle, end, ..
     } = bones;
-    let to_upper = upper - middle;
+    let (to_upper, to_end) = (upper - middle, end - middle);
+    let (upper_sq, end_sq) = (to_upper.length_squared(), to_end.length_squared());
+    let product_sq = upper_sq * end_sq;
+    let axis = to_upper.cross(to_end);
+    let axis_sq = axis.length_squared();
+    // Not `<`: products that overflowed to NaN are no plane either.
+    if !(axis_sq > NEAR_LINE * product_sq && product_sq > 1e-60 && product_sq < 1e60) {
+        return None;
+    }
+    let product = product_sq.sqrt();
+    let now_cosine = to_upper.dot(to_end);
+    let now_sine = axis_sq.sqrt();
+    let cosine = 0.5 * (upper_sq + end_sq - wanted_distance_sq(bones));
+    let cosine = cosine.clamp(-product, product);
+    let sine = (product_sq - cosine * cosine).max(0.0).sqrt();
+    // One plus the cosine of the turn, and its sine: twice the product of those of half the turn.
+    let turn_cosine = product_sq + cosine * now_cosine + sine * now_sine;
+    let turn_sine = sine * now_cosine - cosine * now_sine;
+    if turn_cosine <= NEAR_NOTHING * product_sq {
+        return None;
+    }
+    let norm = now_sine * product * (2.0 * turn_cosine).sqrt();
+    let over_norm = 1.0 / norm;
+    let turn = DQuat::from_vec4(
+        (axis * (turn_sine * over_norm)).extend(now_sine * turn_cosine * over_norm),
+    );
+    let over_plane = 1.0 / (upper_sq * now_sine);
+    let end = to_upper * (cosine * now_sine * over_plane - 1.0)
+        + axis.cross(to_upper) * (sine * over_plane);
+    Some((turn, end))
+}
+
+/// As [`opened`], for all bones.
+#[cold]
+fn opened_carefully(bones: &TwoBone) -> (DQuat, DVec3) {
+    let &TwoBone {
+        upper, middle, end, ..
+    } = bones;
     let to_end = end - middle;
     let axis = bend_axis(bones);
-    let middle_turn = open(to_upper, to_end, axis, wanted_distance(bones));
-    let end = middle + middle_turn * to_end - upper;
+    let distance = wanted_distance_sq(bones).sqrt();
+    let turn = open(upper - middle, to_end, axis, distance);
+    (turn, middle + turn * to_end - upper)
+}
+
+/// The upper joint's turn, and the swivel after it where there is a pole.
+fn reached_carefully(bones: &TwoBone, end: DVec3) -> DQuat {
+    let &TwoBone { upper, middle, .. } = bones;
     let to_target = bones.target - upper;
-    let mut upper_turn = shortest_turn(end, to_target).unwrap_or(DQuat::IDENTITY);
-    if let Some(pole) = bones.pole {
-        let line_sq = to_target.length_squared();
-        if line_sq > 0.0 {
-            let aside = |v: DVec3| v - to_target * (v.dot(to_target) / line_sq);
-            let from = aside(upper_turn * (middle - upper));
-            let to = aside(pole - upper);
-            // Both lie across the line, so that the shortest turn between them is about it; where they are
-            // opposite it must be told so.
-            let swivel = if from.dot(to) < -0.999_999 * (from.length() * to.length()) {
-                Some(DQuat::from_vec4((to_target / line_sq.sqrt()).extend(0.0)))
-            } else {
-                shortest_turn(from, to)
-            };
-            if from.length_squared() > 1e-18 * line_sq
-                && let Some(swivel) = swivel
-            {
-                upper_turn = swivel * upper_turn;
-            }
-        }
-    }
-    TwoBoneTurns {
-        upper: upper_turn,
-        middle: middle_turn,
+    let turn = shortest_turn(end, to_target).unwrap_or(DQuat::IDENTITY);
+    let line_sq = to_target.length_squared();
+    let Some(pole) = bones.pole.filter(|_| line_sq > 0.0) else {
+        return turn;
+    };
+    let aside = |v: DVec3| v - to_target * (v.dot(to_target) / line_sq);
+    let from = aside(turn * (middle - upper));
+    let to = aside(pole - upper);
+    // Both lie across the line, so that the shortest turn between them is about it; where they are
+    // opposite it must be told so.
+    let swivel = if from.dot(to) < -0.999_999 * (from.length() * to.length()) {
+        Some(DQuat::from_vec4((to_target / line_sq.sqrt()).extend(0.0)))
+    } else {
+        shortest_turn(from, to)
+    };
+    match swivel {
+        Some(swivel) if from.length_squared() > 1e-18 * line_sq => swivel * turn,
+        _ => turn,
     }
 }
+
+/// Bones are in one line when the square of the sine of their angle is below this.
+const IN_LINE: f64 = 1e-16;
+
+/// And nearly so below this: their plane is known to fewer digits the nearer they are.
+const NEAR_LINE: f64 = 1e-8;
 
 /// The axis about which the middle joint opens as the angle between its bones grows: across their plane.
 fn bend_axis(bones: &TwoBone) -> DVec3 {
@@ -121,7 +184,7 @@ fn bend_axis(bones: &TwoBone) -> DVec3 {
     let (to_upper, to_end) = (upper - middle, end - middle);
     let normal = to_upper.cross(to_end);
     let size_sq = to_upper.length_squared() * to_end.length_squared();
-    if normal.length_squared() > 1e-16 * size_sq {
+    if normal.length_squared() > IN_LINE * size_sq {
         return normal.normalize_or_zero();
     }
     let along = if to_end == DVec3::ZERO {
@@ -133,12 +196,23 @@ fn bend_axis(bones: &TwoBone) -> DVec3 {
         // Opening away from the pole keeps the middle joint on its side.
         let normal = (pole - middle).cross(along);
         if normal.length_squared()
-            > 1e-16 * along.length_squared() * (pole - middle).length_squared()
+            > IN_LINE * along.length_squared() * (pole - middle).length_squared()
         {
             return normal.normalize_or_zero();
         }
     }
     perpendicular(along)
+}
+
+/// How far from the upper joint the end should be, squared.
+#[inline]
+fn wanted_distance_sq(bones: &TwoBone) -> f64 {
+    if bones.softness <= 0.0 {
+        bones.upper.distance_squared(bones.target)
+    } else {
+        let distance = wanted_distance(bones);
+        distance * distance
+    }
 }
 
 /// How far from the upper joint the end should be.

@@ -32,7 +32,7 @@ pub fn fabrik_points(
     let last = points.len() - 1;
     let base = points[0];
     let to_target = target - base;
-    let mut left = points[last].distance(target);
+    let left = points[last].distance(target);
     if left <= tolerance || !to_target.is_finite() {
         return (left, 0);
     }
@@ -43,33 +43,94 @@ pub fn fabrik_points(
         }
         return (points[last].distance(target), 1);
     }
+    let Some((_, moving)) = points.split_first_mut() else {
+        return (left, 0);
+    };
+    // Distances are compared by their squares: their roots would only wait for each other.
+    let near_sq = if tolerance >= 0.0 {
+        tolerance * tolerance
+    } else {
+        -1.0
+    };
+    let mut left_sq = left * left;
     let mut iterations = 0;
     while iterations < max_iterations {
         iterations += 1;
-        points[last] = target;
-        for i in (0..last).rev() {
-            points[i] = points[i + 1] + at_length(points[i] - points[i + 1], lengths[i]);
+        // Inwards. The last step would move the base, which keeps its place.
+        if let Some((end, inner)) = moving.split_last_mut() {
+            *end = target;
+            lay_along(
+                target,
+                inner.iter_mut().zip(lengths[1..].iter().copied()).rev(),
+            );
         }
-        points[0] = base;
-        for i in 0..last {
-            points[i + 1] = points[i] + at_length(points[i + 1] - points[i], lengths[i]);
+        let at = lay_along(base, moving.iter_mut().zip(lengths.iter().copied()));
+        let now_sq = at.distance_squared(target);
+        let is_done = now_sq <= near_sq || now_sq >= left_sq;
+        left_sq = now_sq;
+        if is_done {
+            break;
         }
-        let now = points[last].distance(target);
-        if now <= tolerance || now >= left {
-            return (now, iterations);
-        }
-        left = now;
     }
-    (left, iterations)
+    (left_sq.sqrt(), iterations)
 }
+
+/// Lays points one after the other at their lengths from the one before, each on the line to where it was; the last of
+/// them. Each point waits for the one before it, so that what counts is how long a step keeps the next one waiting: the
+/// square of the next distance follows from the step's ratio by the law of cosines, before the point is there.
+#[inline(always)]
+fn lay_along<'a>(start: DVec3, mut steps: impl Iterator<Item = (&'a mut DVec3, f64)>) -> DVec3 {
+    /// Below this share of the longer side the law of cosines leaves too few digits.
+    const CLEAR: f64 = 1e-3;
+    let mut at = start;
+    let Some((mut point, mut length)) = steps.next() else {
+        return at;
+    };
+    let mut way = *point - at;
+    let mut size_sq = way.length_squared();
+    for (next, next_length) in steps {
+        let past = *next - at;
+        let (past_sq, along) = (past.length_squared(), past.dot(way));
+        if size_sq > NO_DIRECTION_SQ {
+            let ratio = (length / size_sq) * size_sq.sqrt();
+            at += way * ratio;
+            way = *next - at;
+            size_sq = (past_sq + length * length) - (2.0 * along) * ratio;
+            if size_sq <= CLEAR * past_sq {
+                size_sq = measured(way);
+            }
+        } else {
+            at += at_length(way, length);
+            way = *next - at;
+            size_sq = measured(way);
+        }
+        *point = at;
+        (point, length) = (next, next_length);
+    }
+    at += at_length(way, length);
+    *point = at;
+    at
+}
+
+/// The square of a length, where it must be waited for: a branch that is seldom taken, and not a choice of two values
+/// that are both computed.
+#[cold]
+#[inline(never)]
+fn measured(way: DVec3) -> f64 {
+    way.length_squared()
+}
+
+/// Vectors whose squares are below this have no direction.
+const NO_DIRECTION_SQ: f64 = 1e-200;
 
 /// The vector brought to a length; one without a direction points along Y, so that bones keep their
 /// lengths whatever comes.
 #[inline(always)]
 pub(super) fn at_length(vector: DVec3, length: f64) -> DVec3 {
     let size_sq = vector.length_squared();
-    if size_sq > 1e-200 {
-        vector * (length / size_sq.sqrt())
+    if size_sq > NO_DIRECTION_SQ {
+        // The root and the quotient do not wait for each other, as those of `length / size` would.
+        vector * ((length / size_sq) * size_sq.sqrt())
     } else {
         DVec3::Y * length
     }
