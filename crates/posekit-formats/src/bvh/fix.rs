@@ -54,7 +54,7 @@ pub enum ChangeCode {
     FrameTimeSet,
     /// A frame time that cannot be right was left, because nobody said the right one.
     FrameTimeKept,
-    /// Values that were no numbers were filled from the frames beside them.
+    /// Values that were not numbers were filled from the frames beside them.
     GapBridged,
     /// Blanks in a name became underscores.
     NameBlanks,

@@ -130,9 +130,26 @@ impl Shot {
     /// The motion of the scene's time range at its own rate, or at another.
     ///
     /// Its translated joints are the roots and those that a motion or a key moves.
+    ///
+    /// It takes memory for each frame and joint: see [`frame_count`](Self::frame_count), and
+    /// [`bake_frames`](Self::bake_frames) for a part.
     pub fn bake(&self, frames_per_sec: Option<f64>) -> Motion {
-        let rate = frames_per_sec.unwrap_or(self.frames_per_sec);
-        let config = BakeConfig::of_range(self.range_secs, rate);
+        self.bake_frames(frames_per_sec, 0..self.frame_count(frames_per_sec))
+    }
+
+    /// How many frames [`bake`](Self::bake) makes.
+    pub fn frame_count(&self, frames_per_sec: Option<f64>) -> usize {
+        self.config(frames_per_sec).frame_count
+    }
+
+    /// Some of the frames that [`bake`](Self::bake) makes, in the order of their numbers here: the same poses. Frames
+    /// past its end go on beyond the scene's range.
+    pub fn bake_frames(
+        &self,
+        frames_per_sec: Option<f64>,
+        frames: impl ExactSizeIterator<Item = usize>,
+    ) -> Motion {
+        let config = self.config(frames_per_sec);
         let mut moving: Vec<JointId> = self.skeleton.roots().collect();
         moving.extend(self.animation.translations().map(|(joint, _)| joint));
         for layer in &self.layers {
@@ -141,14 +158,22 @@ impl Shot {
             moving.extend(theirs.map(|&(_, to)| to));
         }
         let skeleton = Arc::clone(&self.skeleton);
-        let (frames, step) = (config.frame_count, config.frame_time_secs);
-        let mut motion = Motion::at_rest(skeleton, frames, step, moving);
+        let step = config.frame_time_secs;
+        let mut motion = Motion::at_rest(skeleton, frames.len(), step, moving);
         let mut pose = LocalPose::rest(&self.skeleton);
-        for (frame, count) in (0..frames).zip(0_u32..) {
+        for (place, frame) in frames.enumerate() {
+            let count = u32::try_from(frame).unwrap_or(u32::MAX);
             self.sample_into(config.start_secs + f64::from(count) * step, &mut pose);
-            motion.set_pose(frame, &pose);
+            motion.set_pose(place, &pose);
         }
         motion
+    }
+
+    fn config(&self, frames_per_sec: Option<f64>) -> BakeConfig {
+        BakeConfig::of_range(
+            self.range_secs,
+            frames_per_sec.unwrap_or(self.frames_per_sec),
+        )
     }
 }
 

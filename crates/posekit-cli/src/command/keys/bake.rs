@@ -1,12 +1,14 @@
 //! `posekit keys bake`: keys as a motion file.
 
 use std::ffi::OsString;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use posekit::rotation::EulerOrder;
-use posekit_formats::bvh::{Bvh, WriteOptions, write_to};
+use posekit_formats::bvh::{WriteOptions, write_motion_to};
 use posekit_formats::report::Import;
+use posekit_formats::scene::Shot;
 
 use crate::args::Global;
 use crate::console;
@@ -49,7 +51,7 @@ pub(super) fn run(args: &BakeArgs, global: &Global) -> Result<(), Failure> {
         return Err(Failure::usage("--order takes three axes, as ZXY"));
     }
     extension::refuse_other(&args.output, &["bvh"], extension::REDIRECT)?;
-    let scene = scene_file::read(&args.file)?;
+    let scene = scene_file::read(&args.file, &global.guard)?;
     if let Some(fps) = args.fps {
         let frames = (scene.range_secs[1] - scene.range_secs[0]) * fps;
         if !(fps > 0.0 && frames <= MOST_FRAMES) {
@@ -61,13 +63,12 @@ pub(super) fn run(args: &BakeArgs, global: &Global) -> Result<(), Failure> {
     let Import {
         document: shot,
         report,
-    } = scene_file::shot(&args.file, &scene)?;
+    } = scene_file::shot(&args.file, &scene, &global.guard)?;
     let name = args.file.display().to_string();
     load::refuse_repairs(&name, &report, global)?;
     for warning in load::repair_lines(&name, &report.warnings) {
         console::warning(&warning);
     }
-    let bvh = Bvh::from_motion(&shot.bake(args.fps), args.order);
     let input = Input {
         source: Source::File(args.file.clone()),
         relative: file_name(&args.file),
@@ -76,22 +77,38 @@ pub(super) fn run(args: &BakeArgs, global: &Global) -> Result<(), Failure> {
         list: vec![input],
         ..Inputs::default()
     };
-    let options = WriteOptions::default();
-    match Plan::new(&args.output, &inputs, "bvh")?.destination(0) {
+    match Plan::new(&args.output, &inputs, "bvh", &global.guard)?.destination(0) {
         Destination::Stdout => {
             let mut out = console::binary_stdout();
-            write_to(&bvh, options, &mut out)?;
-            Ok(std::io::Write::flush(&mut out)?)
+            write(args, &shot, &mut out)?;
+            Ok(out.flush()?)
         }
-        Destination::File(path) => {
-            write_whole(path, |file| write_to(&bvh, options, file))?;
+        Destination::File(target) => {
+            write_whole(target, |file| write(args, &shot, file))?;
             if !global.quiet {
-                let frames = counted(bvh.frame_count(), "frame");
-                console::note(&format!("wrote {}: {frames}", path.display()));
+                let frames = counted(shot.frame_count(args.fps), "frame");
+                console::note(&format!("wrote {}: {frames}", target.display()));
             }
             Ok(())
         }
     }
+}
+
+/// How many joints are posed at once, one for each joint and frame: enough that their number does not show in the
+/// time, few enough that it does not show in the memory.
+const POSED_AT_ONCE: usize = 1 << 17;
+
+/// Writes the frames, baked a piece at a time.
+fn write(args: &BakeArgs, shot: &Shot, out: &mut impl Write) -> io::Result<()> {
+    let frame_count = shot.frame_count(args.fps);
+    let at_once = (POSED_AT_ONCE / shot.skeleton().joint_count().max(1)).max(1);
+    let head = shot.bake_frames(args.fps, 0..0);
+    let pieces = (0..frame_count).step_by(at_once).map(|first| {
+        let end = (first + at_once).min(frame_count);
+        shot.bake_frames(args.fps, first..end)
+    });
+    let options = WriteOptions::default();
+    write_motion_to(&head, frame_count, pieces, args.order, options, out)
 }
 
 /// The name that a file in a folder gets: `walk` of `walk.posekit.toml`.

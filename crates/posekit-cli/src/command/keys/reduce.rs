@@ -101,14 +101,14 @@ pub(super) fn run(args: &ReduceArgs, global: &Global) -> Result<(), Failure> {
         list: vec![input.clone()],
         ..inputs::Inputs::default()
     };
-    match Plan::new(&args.output, &one, EXTENSION)?.destination(0) {
+    match Plan::new(&args.output, &one, EXTENSION, &global.guard)?.destination(0) {
         Destination::Stdout => Ok(console::binary_stdout().write_all(&bytes)?),
-        Destination::File(path) => {
-            write_whole(path, |file| file.write_all(&bytes))?;
+        Destination::File(target) => {
+            write_whole(target, |file| file.write_all(&bytes))?;
             if !global.quiet {
                 console::note(&format!(
                     "wrote {}: {} in quaternions{}, {} that a key at every frame would take; within {} degrees and {} % of the height",
-                    path.display(),
+                    target.display(),
                     counted(reduction.animation.key_count(), "key"),
                     args.euler
                         .map_or_else(String::new, |order| format!(" (written as {order} angles)")),

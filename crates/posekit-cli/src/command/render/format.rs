@@ -93,7 +93,8 @@ pub(super) fn of(args: &RenderArgs) -> Result<Product, Failure> {
     }
     if args.output == STDIN && console::stdout_is_terminal() {
         return Err(
-            Failure::usage("a picture is no text to show on a terminal").try_next("name a file")
+            Failure::usage("a picture cannot be shown as text on a terminal")
+                .try_next("name a file"),
         );
     }
     if let Some(fps) = args.fps {
@@ -104,7 +105,7 @@ pub(super) fn of(args: &RenderArgs) -> Result<Product, Failure> {
         };
         if !(fps > 0.0 && fps <= most) {
             return Err(Failure::usage(format!(
-                "{fps} is no frame rate of .{}: it goes up to {most}",
+                "{fps} is not a frame rate for .{}: that is above 0 and at most {most}",
                 product.extension()
             )));
         }
