@@ -43,7 +43,7 @@ pub enum EditError {
     },
     /// A factor carries a length beyond the numbers that there are.
     #[error(
-        "a scale of {factor} makes the length {length:e} larger than {:e}, the largest number that there is",
+        "a scale of {factor:?} makes the length {length:?} larger than {:e}, the largest number that there is",
         f64::MAX
     )]
     TooLarge {
