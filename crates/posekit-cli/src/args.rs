@@ -7,6 +7,7 @@ use posekit_render::render::RendererChoice;
 
 use crate::command;
 use crate::console::ColorWhen;
+use crate::output::Guard;
 
 /// Skeletal character animation from motion data
 ///
@@ -60,6 +61,9 @@ pub(crate) struct Global {
         hide_possible_values = true
     )]
     pub(crate) color: ColorWhen,
+    /// The files that the command reads and writes.
+    #[arg(skip)]
+    pub(crate) guard: Guard,
 }
 
 /// What to do.
@@ -116,5 +120,65 @@ impl From<RendererArg> for RendererChoice {
             RendererArg::Cpu => Self::Cpu,
             RendererArg::Gpu => Self::Gpu,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use clap::CommandFactory;
+
+    use super::*;
+
+    /// Every option that takes a value, as `keys bake | --output`, and every name without an option, as `fk | FILE`.
+    fn valued(prefix: &str, command: &clap::Command, found: &mut BTreeSet<String>) {
+        let args = command.get_arguments().filter(|arg| {
+            arg.get_action().takes_values() && !arg.is_global_set() && arg.get_id() != "help"
+        });
+        for arg in args {
+            let name = match arg.get_long() {
+                Some(long) => format!("--{long}"),
+                None => arg
+                    .get_value_names()
+                    .map_or_else(String::new, |names| names[0].to_string()),
+            };
+            found.insert(format!("{} | {name}", prefix.trim()));
+        }
+        let commands = command
+            .get_subcommands()
+            .filter(|sub| sub.get_name() != "help");
+        for sub in commands {
+            valued(&format!("{prefix} {}", sub.get_name()), sub, found);
+        }
+    }
+
+    #[test]
+    fn it_is_known_of_every_option_whether_it_names_a_file() {
+        let mut command = Cli::command();
+        command.build();
+        let mut found = BTreeSet::new();
+        valued("", &command, &mut found);
+        let table = include_str!("../tests/it/options.txt");
+        let rows = table.lines().filter(|line| !line.starts_with('#'));
+        let known: BTreeSet<String> = rows
+            .map(|row| {
+                let (option, role) = row.rsplit_once(" | ").unwrap();
+                assert!(["reads", "writes", "makes", "-"].contains(&role), "{row}");
+                option.to_owned()
+            })
+            .collect();
+        let window = |option: &String| cfg!(feature = "window") || !option.starts_with("view ");
+        let known: BTreeSet<String> = known.into_iter().filter(window).collect();
+        let unknown: Vec<_> = found.difference(&known).collect();
+        assert!(
+            unknown.is_empty(),
+            "say in tests/it/options.txt what they name: {unknown:#?}"
+        );
+        let gone: Vec<_> = known.difference(&found).collect();
+        assert!(
+            gone.is_empty(),
+            "there is no such option any more: {gone:#?}"
+        );
     }
 }

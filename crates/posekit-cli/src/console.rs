@@ -8,6 +8,8 @@ use std::io::{self, BufWriter, IsTerminal, Write};
 use anstyle::{AnsiColor, Style};
 use clap::ValueEnum;
 
+use crate::failure::one_line;
+
 /// Marks an error.
 const ERROR: Style = AnsiColor::Red.on_default().bold();
 /// Marks a warning.
@@ -40,17 +42,45 @@ pub(crate) fn set_color(when: ColorWhen) {
     .write_global();
 }
 
-/// `text` in a style, for writing to standard output or standard error.
+/// `text` in a style on one line, for writing to standard output or standard error.
 pub(crate) fn styled(style: Style, text: &str) -> String {
+    let text = one_line(text);
     format!("{style}{text}{style:#}")
 }
 
-/// Standard output, locked and buffered, without colours where they would not be shown.
+/// Standard output for people, locked and buffered, without colours where they would not be shown.
 pub(crate) fn stdout() -> impl Write {
     BufWriter::with_capacity(1 << 16, anstream::stdout().lock())
 }
 
-/// Standard output for bytes that are not text.
+/// Standard output for people, or for programs, which get every byte as it is.
+pub(crate) fn stdout_for(reader: Reader) -> Box<dyn Write> {
+    match reader {
+        Reader::Person => Box::new(stdout()),
+        Reader::Program => Box::new(binary_stdout()),
+    }
+}
+
+/// Who reads standard output.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Reader {
+    /// Somebody at a terminal.
+    Person,
+    /// A program: JSON and comma-separated values are exact.
+    Program,
+}
+
+impl Reader {
+    /// Who reads what is written with or without `--json`.
+    pub(crate) fn of_json(is_json: bool) -> Self {
+        match is_json {
+            true => Self::Program,
+            false => Self::Person,
+        }
+    }
+}
+
+/// Standard output for bytes as they are: files, and what programs read.
 pub(crate) fn binary_stdout() -> impl Write {
     BufWriter::with_capacity(1 << 16, io::stdout().lock())
 }
@@ -65,7 +95,7 @@ pub(crate) fn stderr_is_terminal() -> bool {
     io::stderr().is_terminal()
 }
 
-/// Writes `error: ...` to standard error.
+/// Writes `error: ...` to standard error, on one line whatever names are in it, as [`warning`] and [`note`] do.
 pub(crate) fn error(text: &str) {
     line(ERROR, "error", text);
 }
@@ -81,6 +111,7 @@ pub(crate) fn note(text: &str) {
 }
 
 fn line(style: Style, label: &str, text: &str) {
+    let text = one_line(text);
     // A standard error that cannot be written to leaves nobody to tell.
     let _ = writeln!(anstream::stderr().lock(), "{style}{label}{style:#}: {text}");
 }

@@ -148,17 +148,34 @@ fn plain(error: &io::Error) -> String {
     text.trim_end_matches('.').to_lowercase()
 }
 
-/// `text` with its control characters escaped, so that it stays on one line and moves no cursor.
+/// `text` with escapes in place of what moves the cursor, ends the line or turns the direction of writing: names
+/// that come out of a file stay one line, and read as they are.
 pub(crate) fn one_line(text: &str) -> String {
     let mut line = String::with_capacity(text.len());
     for c in text.chars() {
-        if c.is_control() {
-            line.extend(c.escape_default());
-        } else {
+        if is_shown(c) {
             line.push(c);
+        } else {
+            line.extend(c.escape_default());
         }
     }
     line
+}
+
+/// Whether a terminal shows a character and does nothing else with it.
+///
+/// Left alone are the joiners U+200C and U+200D, which words and emoji are written with.
+fn is_shown(c: char) -> bool {
+    let does_something = c.is_control()
+        || matches!(c,
+            // The direction of writing: marks, embeddings, overrides, isolates (Unicode Standard Annex 9).
+            '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{206f}'
+            // Ends of lines and paragraphs.
+            | '\u{2028}' | '\u{2029}'
+            // What has no width, so that two names look the same.
+            | '\u{ad}' | '\u{200b}' | '\u{2060}'..='\u{2065}' | '\u{feff}' | '\u{180e}'
+            | '\u{fff9}'..='\u{fffb}' | '\u{e0000}'..='\u{e007f}');
+    !does_something
 }
 
 #[cfg(test)]
@@ -171,6 +188,25 @@ mod tests {
             .in_file("a.bvh")
             .try_next("look again");
         assert_eq!(failure.to_string(), "a.bvh: bad\\nname; look again");
+    }
+
+    #[test]
+    fn what_would_move_the_cursor_or_turn_the_text_is_escaped_and_the_rest_stays() {
+        for (text, shown) in [
+            ("a\u{202e}b", "a\\u{202e}b"),
+            (
+                "\u{1b}[31mred\u{1b}]0;t\u{7}",
+                "\\u{1b}[31mred\\u{1b}]0;t\\u{7}",
+            ),
+            ("a\tb\u{9b}", "a\\tb\\u{9b}"),
+            ("a\u{2028}b\u{feff}", "a\\u{2028}b\\u{feff}"),
+            (
+                "Hüfte \u{5e9}\u{5dc} 手 \u{1f468}\u{200d}\u{1f469}",
+                "Hüfte \u{5e9}\u{5dc} 手 \u{1f468}\u{200d}\u{1f469}",
+            ),
+        ] {
+            assert_eq!(one_line(text), shown);
+        }
     }
 
     #[test]

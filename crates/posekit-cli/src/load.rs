@@ -1,18 +1,15 @@
 //! From an input to the document in it.
 
-use std::fs;
-use std::io::{self, Read};
-use std::path::Path;
-
 use posekit::motion::{Motion, PositionPolicies};
 use posekit_formats::bvh::{self, Bvh, Gap};
 use posekit_formats::report::{Import, ImportReport, ReadError, ReadErrorKind, Severity, Warning};
 use posekit_formats::urdf::{self, Urdf};
 
 use crate::args::Global;
+use crate::bytes;
 use crate::failure::{Failure, one_line};
 use crate::inputs::{Input, Source};
-use crate::scene_file;
+use crate::scene_file::{self, Asked, Part};
 
 /// A document and what its reader had to say.
 #[derive(Debug)]
@@ -32,7 +29,7 @@ impl Loaded {
         })
     }
 
-    /// What position channels turn out to mean where they are no places, as a warning that names the option.
+    /// What position channels turn out to mean where they are not positions, as a warning that names the option.
     pub(crate) fn relative_positions(
         &self,
         input: &Input,
@@ -70,6 +67,27 @@ pub(crate) fn load(input: &Input, global: &Global) -> Result<Loaded, Failure> {
     })
 }
 
+/// As [`load`], of a scene only the frames that are asked for: a few lines of text can stand for millions.
+pub(crate) fn load_part(
+    input: &Input,
+    asked: Asked<'_>,
+    global: &Global,
+) -> Result<(Loaded, Option<Part>), Failure> {
+    let Source::File(path) = &input.source else {
+        return Ok((load(input, global)?, None));
+    };
+    if !scene_file::is_scene(path) {
+        return Ok((load(input, global)?, None));
+    }
+    let (import, part) = scene_file::part(path, asked, &global.guard)?;
+    refuse_repairs(&input.name(), &import.report, global)?;
+    let loaded = Loaded {
+        bvh: import.document,
+        notices: import.report.warnings,
+    };
+    Ok((loaded, Some(part)))
+}
+
 /// A file of motion, or of a robot.
 #[derive(Debug)]
 pub(crate) enum Subject {
@@ -85,7 +103,7 @@ pub(crate) fn load_subject(input: &Input, global: &Global) -> Result<Subject, Fa
     Ok(load_subject_by(input, global, parse_whole)?.0)
 }
 
-/// As [`load_subject`], with values in the rows that are no numbers: their places beside a clip.
+/// As [`load_subject`], with values in the rows that are not numbers: their places beside a clip.
 pub(crate) fn load_subject_with_gaps(
     input: &Input,
     global: &Global,
@@ -99,7 +117,7 @@ fn load_subject_by(
     parse: impl Fn(&str, &[u8]) -> Result<(Import<Bvh>, Vec<Gap>), Failure>,
 ) -> Result<(Subject, Vec<Gap>), Failure> {
     let name = input.name();
-    let Some(bytes) = input_bytes(input)? else {
+    let Some(bytes) = input_bytes(input, global)? else {
         return Ok((Subject::Clip(load_import(input, global)?.0), Vec::new()));
     };
     if !looks_like_xml(&bytes) {
@@ -134,11 +152,11 @@ pub(crate) fn refuse_repairs(
 }
 
 /// The bytes of an input; `None` for a scene, whose text names other files, and for a clip of our own.
-fn input_bytes(input: &Input) -> Result<Option<Vec<u8>>, Failure> {
+fn input_bytes(input: &Input, global: &Global) -> Result<Option<Vec<u8>>, Failure> {
     match &input.source {
         Source::File(path) if scene_file::is_scene(path) => Ok(None),
-        Source::File(path) => file_bytes(path).map(Some),
-        Source::Stdin => stdin_bytes().map(Some),
+        Source::File(path) => bytes::of_file(path, &global.guard).map(Some),
+        Source::Stdin => bytes::of_stdin(&global.guard).map(Some),
         Source::Sample(_) => Ok(None),
     }
 }
@@ -153,7 +171,7 @@ pub(crate) fn load_import(
     Ok((read.import, read.bytes))
 }
 
-/// As [`load_import`], with values in the rows that are no numbers, and where they are.
+/// As [`load_import`], with values in the rows that are not numbers, and where they are.
 pub(crate) fn load_import_with_gaps(
     input: &Input,
     global: &Global,
@@ -161,14 +179,14 @@ pub(crate) fn load_import_with_gaps(
     load_import_by(input, global, parse_with_gaps)
 }
 
-/// A reader's result, the bytes that were read, and the values in them that are no numbers.
+/// A reader's result, the bytes that were read, and the values in them that are not numbers.
 #[derive(Debug)]
 pub(crate) struct ImportWithGaps {
     /// The document, which holds 0 for each gap, and the report.
     pub(crate) import: Import<Bvh>,
     /// The bytes.
     pub(crate) bytes: Vec<u8>,
-    /// The values that are no numbers.
+    /// The values that are not numbers.
     pub(crate) gaps: Vec<Gap>,
 }
 
@@ -188,7 +206,7 @@ fn load_import_by(
     };
     let bytes = match &input.source {
         Source::File(path) if scene_file::is_scene(path) => {
-            let import = scene_file::document(path)?;
+            let import = scene_file::document(path, &global.guard)?;
             refuse_repairs(&name, &import.report, global)?;
             return Ok(ImportWithGaps {
                 import,
@@ -196,8 +214,8 @@ fn load_import_by(
                 gaps: Vec::new(),
             });
         }
-        Source::File(path) => file_bytes(path)?,
-        Source::Stdin => stdin_bytes()?,
+        Source::File(path) => bytes::of_file(path, &global.guard)?,
+        Source::Stdin => bytes::of_stdin(&global.guard)?,
         Source::Sample(sample) => return without_notices(sample.document()?),
     };
     let (import, gaps) = parse(&name, &bytes)?;
@@ -262,17 +280,4 @@ fn notice_line(name: &str, notice: &Warning) -> String {
         .map_or(String::new(), |file| format!(": {file}"));
     let place = place.after_name();
     one_line(&format!("{name}{file}{place}{message} [{code}]{more}"))
-}
-
-fn file_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
-    fs::read(path).map_err(|error| Failure::cannot_read(path, &error))
-}
-
-fn stdin_bytes() -> Result<Vec<u8>, Failure> {
-    let mut bytes = Vec::new();
-    io::stdin()
-        .lock()
-        .read_to_end(&mut bytes)
-        .map_err(|error| Failure::cannot_read(Path::new("standard input"), &error))?;
-    Ok(bytes)
 }

@@ -2,6 +2,7 @@
 
 mod args;
 mod batch;
+mod bytes;
 mod command;
 mod console;
 mod extension;
@@ -21,15 +22,19 @@ mod similar;
 mod text;
 mod up;
 
+use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::Parser;
 
 use args::{Cli, Command};
-use failure::{EXIT_DONE, Failure};
+use failure::{EXIT_DONE, EXIT_WRONG_USAGE, Failure};
 
 fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(answer) => return tell(&answer),
+    };
     if cli.may_use_graphics() {
         graphics_env::keep_quiet();
     }
@@ -47,7 +52,7 @@ fn main() -> ExitCode {
         Command::Ik(args) => command::ik::run(&args, &cli.global),
         Command::IkStudy(args) => command::ik_study::run(&args, &cli.global),
         #[cfg(feature = "window")]
-        Command::View(args) => command::view::run(&args),
+        Command::View(args) => command::view::run(&args, &cli.global),
         Command::Serve(args) => command::serve::run(&args, &cli.global),
         Command::Render(args) => command::render::run(&args, &cli.global),
         Command::Keys(args) => command::keys::run(&args, &cli.global),
@@ -55,8 +60,17 @@ fn main() -> ExitCode {
         Command::Slerp(args) => command::slerp::run(&args),
         Command::Sample(args) => command::sample::run(&args, &cli.global),
         Command::Completions(args) => command::completions::run(&args),
-        Command::Man(args) => command::man::run(&args),
+        Command::Man(args) => command::man::run(&args, &cli.global),
     })
+}
+
+/// Prints what the command line alone is answered with: help, the version, or what is wrong with it.
+fn tell(answer: &clap::Error) -> ExitCode {
+    let told = answer.print().and_then(|()| io::stdout().flush());
+    if answer.use_stderr() {
+        return ExitCode::from(EXIT_WRONG_USAGE);
+    }
+    finish(told.map_err(Failure::from))
 }
 
 /// Says what went wrong, if anything, and gives the exit code.

@@ -5,6 +5,7 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::console;
+use crate::failure::one_line;
 
 /// A bar with the time left, or nothing when nobody would see it.
 #[derive(Debug)]
@@ -48,7 +49,7 @@ impl Progress {
     pub(crate) fn advance(&self, name: &str) {
         if let Some(bar) = &self.bar {
             if !name.is_empty() {
-                bar.set_message(name.to_owned());
+                bar.set_message(one_line(name));
             }
             bar.inc(1);
         }

@@ -1,6 +1,6 @@
 //! Scene files, and the motion files that they name.
 
-use std::fs;
+use std::cell::Cell;
 use std::path::Path;
 
 use posekit::motion::Motion;
@@ -11,8 +11,12 @@ use posekit_formats::gltf;
 use posekit_formats::report::{Import, ImportReport};
 use posekit_formats::scene::{self, MotionFileError, Scene, Shot};
 
+use crate::bytes;
 use crate::console;
 use crate::failure::{Failure, one_line};
+use crate::output::Guard;
+use crate::select::FrameSelection;
+use crate::text::{counted, grouped};
 
 /// Whether a file of this name is a scene.
 pub(crate) fn is_scene(path: &Path) -> bool {
@@ -21,8 +25,8 @@ pub(crate) fn is_scene(path: &Path) -> bool {
 }
 
 /// Reads a scene file, and warns of what in it will not come out as it may have been meant.
-pub(crate) fn read(path: &Path) -> Result<Scene, Failure> {
-    let bytes = fs::read(path).map_err(|error| Failure::cannot_read(path, &error))?;
+pub(crate) fn read(path: &Path, guard: &Guard) -> Result<Scene, Failure> {
+    let bytes = bytes::of_file(path, guard)?;
     let name = path.display().to_string();
     let (scene, warnings) = scene::read_with_warnings(&bytes)
         .map_err(|error| Failure::new(one_line(&error.in_file(&name))))?;
@@ -32,31 +36,47 @@ pub(crate) fn read(path: &Path) -> Result<Scene, Failure> {
     Ok(scene)
 }
 
+/// Makes the files that a scene names known to the guard, and the buffers that those name, before they are read for
+/// their work. What is wrong with them is said then.
+pub(crate) fn note_files(path: &Path, guard: &Guard) -> Result<(), Failure> {
+    let Ok(scene) = scene::read(&bytes::of_file(path, guard).unwrap_or_default()) else {
+        return Ok(());
+    };
+    let files = Beside::new(path, guard);
+    for named in scene.files() {
+        let _ = scene::import_of(named, scene.role_of(named), |named| files.bytes(named));
+    }
+    files.refused()
+}
+
 /// Puts a scene together with the files that it names, which stand beside it, and says what their readers noticed.
-pub(crate) fn shot(path: &Path, scene: &Scene) -> Result<Import<Shot>, Failure> {
-    let folder = path.parent().unwrap_or(Path::new(""));
+pub(crate) fn shot(path: &Path, scene: &Scene, guard: &Guard) -> Result<Import<Shot>, Failure> {
+    let files = Beside::new(path, guard);
     let mut report = ImportReport::default();
     let load = |named: &str| {
-        let import = scene::import_of(named, scene.role_of(named), |named| {
-            let path = folder.join(named);
-            fs::read(&path).map_err(|error| Failure::cannot_read(&path, &error).to_string())
-        })?;
+        let import = scene::import_of(named, scene.role_of(named), |named| files.bytes(named))?;
         let (file, _) = gltf::file_and_animation(named);
         report.take_in(file, import.report);
         Ok::<_, MotionFileError>(import.document)
     };
-    let document = Shot::new(scene, load).map_err(|error| {
+    let shot = Shot::new(scene, load);
+    files.refused()?;
+    let document = shot.map_err(|error| {
         Failure::new(one_line(&error.to_string())).in_file(&path.display().to_string())
     })?;
     Ok(Import { document, report })
 }
 
 /// Fails where a joint of a baked scene is so far away that what is computed of it may not be finite: keys are not,
-/// but curves between them and cycles beyond them may be.
-pub(crate) fn refuse_too_far(motion: &Motion) -> Result<(), Failure> {
-    let Some((frame, joint)) = motion.first_out_of_range() else {
+/// but curves between them and cycles beyond them may be. `number_of` makes the scene's frame of the motion's.
+pub(crate) fn refuse_too_far(
+    motion: &Motion,
+    number_of: impl Fn(usize) -> usize,
+) -> Result<(), Failure> {
+    let Some((place, joint)) = motion.first_out_of_range() else {
         return Ok(());
     };
+    let frame = number_of(place);
     let name = motion.skeleton().unique_name(joint);
     let why = format!(
         "the keys put joint '{name}' at frame {frame} farther away than {LONGEST_LENGTH:e}, of which no motion can be made"
@@ -65,10 +85,120 @@ pub(crate) fn refuse_too_far(motion: &Motion) -> Result<(), Failure> {
 }
 
 /// The scene of a file as the document that all commands work on: baked at its own rate.
-pub(crate) fn document(path: &Path) -> Result<Import<Bvh>, Failure> {
-    let Import { document, report } = shot(path, &read(path)?)?;
-    let motion = document.bake(None);
-    refuse_too_far(&motion).map_err(|failure| failure.in_file(&path.display().to_string()))?;
+pub(crate) fn document(path: &Path, guard: &Guard) -> Result<Import<Bvh>, Failure> {
+    Ok(part(path, Asked::All, guard)?.0)
+}
+
+/// Which frames of a scene are asked for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Asked<'a> {
+    /// All of them.
+    All,
+    /// Some.
+    Frames(&'a FrameSelection),
+    /// None: the skeleton.
+    Nothing,
+}
+
+/// What of a scene was baked.
+#[derive(Debug)]
+pub(crate) struct Part {
+    /// The numbers of the frames.
+    pub(crate) numbers: Vec<usize>,
+    /// How many frames the whole scene has.
+    pub(crate) frame_count: usize,
+}
+
+/// As [`document`], with the frames that are asked for and no others.
+pub(crate) fn part(
+    path: &Path,
+    asked: Asked<'_>,
+    guard: &Guard,
+) -> Result<(Import<Bvh>, Part), Failure> {
+    let Import {
+        document: shot,
+        report,
+    } = shot(path, &read(path, guard)?, guard)?;
+    let in_file = |failure: Failure| failure.in_file(&path.display().to_string());
+    let frame_count = shot.frame_count(None);
+    let asked_count = match asked {
+        Asked::All => frame_count,
+        Asked::Frames(selection) => selection.count(frame_count),
+        Asked::Nothing => 0,
+    };
+    refuse_large(&shot, asked_count).map_err(in_file)?;
+    let numbers = match asked {
+        Asked::All => (0..frame_count).collect(),
+        Asked::Frames(selection) => selection.frames(frame_count).map_err(in_file)?,
+        Asked::Nothing => Vec::new(),
+    };
+    let motion = shot.bake_frames(None, numbers.iter().copied());
+    refuse_too_far(&motion, |place| numbers[place]).map_err(in_file)?;
     let document = Bvh::from_motion(&motion, EulerOrder::ZXY);
-    Ok(Import { document, report })
+    let part = Part {
+        numbers,
+        frame_count,
+    };
+    Ok((Import { document, report }, part))
+}
+
+/// How many joints are posed at once, one for each joint and frame: a person of sixty joints for forty minutes at 120
+/// frames a second. Whatever works on them takes about a hundred bytes for each.
+const MOST_POSED: usize = 1 << 24;
+
+/// Whether so many frames of a scene can be had at once.
+pub(crate) fn fits(shot: &Shot, frame_count: usize) -> bool {
+    frame_count.saturating_mul(shot.skeleton().joint_count()) <= MOST_POSED
+}
+
+/// Refuses more frames of a scene than can be had at once.
+pub(crate) fn refuse_large(shot: &Shot, frame_count: usize) -> Result<(), Failure> {
+    if fits(shot, frame_count) {
+        return Ok(());
+    }
+    let what = format!(
+        "{} of {} are too many at once: frames times joints go up to {}",
+        counted(frame_count, "frame"),
+        counted(shot.skeleton().joint_count(), "joint"),
+        grouped(MOST_POSED)
+    );
+    Err(Failure::new(what).try_next(
+        "take a part with --frames, lower frames_per_sec or shorten range_secs in the scene, or make a motion \
+         file of it first with posekit keys bake",
+    ))
+}
+
+/// The files beside a scene.
+struct Beside<'a> {
+    folder: &'a Path,
+    guard: &'a Guard,
+    /// The first that must not be read, since it would be overwritten. A reader may do without a file that is
+    /// missing, and must not do without this one.
+    refused: Cell<Option<Failure>>,
+}
+
+impl<'a> Beside<'a> {
+    fn new(scene: &'a Path, guard: &'a Guard) -> Self {
+        Self {
+            folder: scene.parent().unwrap_or(Path::new("")),
+            guard,
+            refused: Cell::new(None),
+        }
+    }
+
+    /// The bytes of a file that the scene, or a file of it, names.
+    fn bytes(&self, named: &str) -> Result<Vec<u8>, String> {
+        bytes::of_file(&self.folder.join(named), self.guard).map_err(|failure| {
+            let text = failure.to_string();
+            if let failure @ Failure::Usage(_) = failure {
+                let first = self.refused.take().unwrap_or(failure);
+                self.refused.set(Some(first));
+            }
+            text
+        })
+    }
+
+    fn refused(&self) -> Result<(), Failure> {
+        self.refused.take().map_or(Ok(()), Err)
+    }
 }

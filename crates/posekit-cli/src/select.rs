@@ -1,5 +1,6 @@
 //! Which frames, joints and points of a motion the user asked for.
 
+use std::ops::Range;
 use std::str::FromStr;
 
 use glam::Vec3;
@@ -87,21 +88,53 @@ impl FrameSelection {
         }
     }
 
+    /// How many [`frames`](Self::frames) are selected, at least where they exist.
+    pub(crate) fn count(&self, frame_count: usize) -> usize {
+        let counts = self.parts.iter().map(|part| match *part {
+            FramePart::One(_) => 1,
+            FramePart::Range { start, end, step } => {
+                let end = end.unwrap_or(frame_count).min(frame_count);
+                end.saturating_sub(start).div_ceil(step.max(1))
+            }
+        });
+        counts.fold(0, usize::saturating_add)
+    }
+
+    /// From the first to the last of the selected frames of a motion of `frame_count` frames.
+    pub(crate) fn span(&self, frame_count: usize) -> Result<Range<usize>, Failure> {
+        let mut span: Option<Range<usize>> = None;
+        for part in &self.parts {
+            // A frame that does not exist is a failure, as it is of all frames.
+            let ends = match *part {
+                FramePart::Range { start, end, .. } if start < frame_count => {
+                    start..end.unwrap_or(frame_count).min(frame_count)
+                }
+                FramePart::One(frame) if frame < frame_count => frame..frame + 1,
+                FramePart::Range { start: frame, .. } | FramePart::One(frame) => {
+                    return Err(frame_past_the_end(frame, frame_count));
+                }
+            };
+            span = Some(match span {
+                Some(span) => span.start.min(ends.start)..span.end.max(ends.end),
+                None => ends,
+            });
+        }
+        Ok(span.unwrap_or(0..0))
+    }
+
     /// The selected frames of a motion of `frame_count` frames, in the order they were asked for.
     /// A range stops where the motion does; a single frame that does not exist is a failure, and so
     /// is a selection of nothing.
     pub(crate) fn frames(&self, frame_count: usize) -> Result<Vec<usize>, Failure> {
-        let past_the_end = |frame: usize| {
-            Failure::new(format!("frame {frame} is past the end"))
-                .try_next(format!("the frames are 0..{frame_count}"))
-        };
         let mut frames = Vec::new();
         for part in &self.parts {
             match *part {
-                FramePart::One(frame) if frame >= frame_count => return Err(past_the_end(frame)),
+                FramePart::One(frame) if frame >= frame_count => {
+                    return Err(frame_past_the_end(frame, frame_count));
+                }
                 FramePart::One(frame) => frames.push(frame),
                 FramePart::Range { start, .. } if start >= frame_count => {
-                    return Err(past_the_end(start));
+                    return Err(frame_past_the_end(start, frame_count));
                 }
                 FramePart::Range { start, end, step } => {
                     let end = end.unwrap_or(frame_count).min(frame_count);
@@ -111,6 +144,11 @@ impl FrameSelection {
         }
         Ok(frames)
     }
+}
+
+fn frame_past_the_end(frame: usize, frame_count: usize) -> Failure {
+    Failure::new(format!("frame {frame} is past the end"))
+        .try_next(format!("the frames are 0..{frame_count}"))
 }
 
 /// What to say of a range of frames that reaches past the end.

@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use crate::console::{DIM, styled};
+use crate::failure::one_line;
 
 /// `1 joint`, `25 joints`, `1,000 joints`.
 pub(crate) fn counted(count: usize, noun: &str) -> String {
@@ -106,10 +107,11 @@ impl Table {
         }
     }
 
-    /// Adds a row with a cell for every column.
+    /// Adds a row with a cell for every column; names in them are shown on one line.
     pub(crate) fn row(&mut self, cells: Vec<String>) {
         debug_assert_eq!(cells.len(), self.columns.len(), "a cell for every column");
-        self.rows.push(cells);
+        self.rows
+            .push(cells.iter().map(|cell| one_line(cell)).collect());
     }
 
     /// Writes heading and rows.

@@ -33,8 +33,10 @@ pub struct MotionArrays<'a> {
     pub motion: &'a GlobalMotion,
     /// The joints that are written, in this order.
     pub joints: &'a [JointId],
-    /// The numbers of the frames that are written, in this order.
+    /// The frames of the motion that are written, in this order.
     pub frames: &'a [usize],
+    /// The numbers of these frames in a longer motion that this one is taken from; `None` where it is whole.
+    pub numbers: Option<&'a [usize]>,
     /// Points that are written beside the joints.
     pub points: &'a [AttachedPoint],
 }
@@ -68,9 +70,14 @@ impl MotionArrays<'_> {
             .collect()
     }
 
-    /// The time of a frame in seconds, counted from frame 0 of the motion.
-    pub fn time_secs(&self, frame: usize) -> f64 {
-        frame_number(frame) * self.motion.frame_time_secs()
+    /// The numbers of the written frames in the whole motion.
+    pub fn numbers(&self) -> &[usize] {
+        self.numbers.unwrap_or(self.frames)
+    }
+
+    /// The time in seconds of the frame of this number, counted from frame 0 of the whole motion.
+    pub fn time_secs(&self, number: usize) -> f64 {
+        frame_number(number) * self.motion.frame_time_secs()
     }
 
     pub(crate) fn position(&self, frame: usize, joint: JointId) -> io::Result<[f32; 3]> {

@@ -22,11 +22,11 @@ pub fn write(arrays: &MotionArrays<'_>, out: &mut impl Write) -> io::Result<()> 
     out.write_all(header(arrays).as_bytes())?;
     let mut text = NumberText::default();
     let mut row = Vec::new();
-    for &frame in arrays.frames {
+    for (&frame, &number) in arrays.frames.iter().zip(arrays.numbers()) {
         row.clear();
-        row.extend_from_slice(frame.to_string().as_bytes());
+        row.extend_from_slice(number.to_string().as_bytes());
         row.push(b',');
-        row.extend_from_slice(text.of(arrays.time_secs(frame)).as_bytes());
+        row.extend_from_slice(text.of(arrays.time_secs(number)).as_bytes());
         let mut push = |values: &[f32]| {
             for &value in values {
                 row.push(b',');

@@ -57,7 +57,7 @@ pub fn write(arrays: &MotionArrays<'_>, out: &mut impl Write) -> io::Result<()> 
     writeln!(
         out,
         "\"frames\": {},",
-        list(arrays.frames.iter().map(usize::to_string))
+        list(arrays.numbers().iter().map(usize::to_string))
     )?;
     let mut frames = FrameWriter {
         frames: arrays.frames,

@@ -5,7 +5,7 @@
 //! arrays alone: the archive carries no time of its making.
 
 use std::fmt::{self, Write as _};
-use std::io::{self, Seek, Write};
+use std::io::{self, Seek, SeekFrom, Write};
 
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
@@ -88,9 +88,9 @@ pub fn write<W: Write + Seek>(
     })?;
     archive.array("frames", &[f], |values| {
         arrays
-            .frames
+            .numbers()
             .iter()
-            .try_for_each(|&frame| values.write(&[frame_number(frame)]))
+            .try_for_each(|&number| values.write(&[frame_number(number)]))
     })?;
     if p > 0 {
         archive.array("points", &[f, p, 3], |values| {
@@ -131,7 +131,7 @@ fn frame_number(frame: usize) -> i64 {
 /// [`write()`] makes the archive of a motion; this is for arrays of one's own.
 #[derive(Debug)]
 pub struct NpzWriter<W: Write + Seek> {
-    archive: ZipWriter<W>,
+    archive: ZipWriter<Sink<W>>,
     compression: CompressionMethod,
     bytes: Vec<u8>,
 }
@@ -144,7 +144,7 @@ impl<W: Write + Seek> NpzWriter<W> {
             Compression::Deflated => CompressionMethod::Deflated,
         };
         Self {
-            archive: ZipWriter::new(out),
+            archive: ZipWriter::new(Sink::new(out)),
             compression,
             bytes: Vec::new(),
         }
@@ -217,7 +217,7 @@ impl<W: Write + Seek> NpzWriter<W> {
     /// # Errors
     /// When the archive cannot be written.
     pub fn finish(self) -> io::Result<W> {
-        Ok(self.archive.finish()?)
+        Ok(self.archive.finish()?.out)
     }
 
     fn start(
@@ -232,6 +232,72 @@ impl<W: Write + Seek> NpzWriter<W> {
             .large_file(data_bytes as u64 > ZIP32_BYTES);
         self.archive.start_file(format!("{name}.npy"), options)?;
         self.archive.write_all(&npy_header(description, shape))
+    }
+}
+
+/// The output of an archive. Once it could not be written it only pretends to be: whoever gave up on the archive
+/// knows why, and an archive that is dropped unfinished tries to finish and says on standard error that it cannot.
+#[derive(Debug)]
+struct Sink<W> {
+    out: W,
+    /// Where the next byte goes.
+    position: u64,
+    is_broken: bool,
+}
+
+impl<W> Sink<W> {
+    fn new(out: W) -> Self {
+        Self {
+            out,
+            position: 0,
+            is_broken: false,
+        }
+    }
+
+    /// Passes a result on, and remembers that it was a failure.
+    fn checked<T>(&mut self, result: io::Result<T>) -> io::Result<T> {
+        // An interrupted call is made again.
+        let is_failure = |error: &io::Error| error.kind() != io::ErrorKind::Interrupted;
+        self.is_broken |= result.as_ref().is_err_and(is_failure);
+        result
+    }
+}
+
+impl<W: Write> Write for Sink<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = match self.is_broken {
+            true => bytes.len(),
+            false => {
+                let written = self.out.write(bytes);
+                self.checked(written)?
+            }
+        };
+        self.position += written as u64;
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        if self.is_broken {
+            return Ok(());
+        }
+        let flushed = self.out.flush();
+        self.checked(flushed)
+    }
+}
+
+impl<W: Seek> Seek for Sink<W> {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        self.position = match (self.is_broken, to) {
+            (false, _) => {
+                let sought = self.out.seek(to);
+                self.checked(sought)?
+            }
+            (true, SeekFrom::Start(position)) => position,
+            (true, SeekFrom::Current(by) | SeekFrom::End(by)) => {
+                self.position.saturating_add_signed(by)
+            }
+        };
+        Ok(self.position)
     }
 }
 
@@ -395,6 +461,63 @@ mod tests {
         assert_eq!(archive(Compression::Stored), archive(Compression::Stored));
         // No time of making: the date fields of the first local header are those of 1980-01-01.
         assert_eq!(archive(Compression::Stored)[10..14], [0, 0, 0x21, 0]);
+    }
+
+    /// Takes so many bytes and no more, as a disk does.
+    struct Disk {
+        free: usize,
+        position: u64,
+    }
+
+    impl Write for Disk {
+        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+            if self.free == 0 {
+                return Err(io::ErrorKind::StorageFull.into());
+            }
+            let written = bytes.len().min(self.free);
+            self.free -= written;
+            self.position += written as u64;
+            Ok(written)
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    impl Seek for Disk {
+        fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+            match to {
+                SeekFrom::Start(position) => self.position = position,
+                SeekFrom::Current(by) | SeekFrom::End(by) => {
+                    self.position = self.position.saturating_add_signed(by);
+                }
+            }
+            Ok(self.position)
+        }
+    }
+
+    #[test]
+    fn a_full_disk_is_an_error_and_stays_one_wherever_the_archive_is_cut() {
+        for compression in [Compression::Stored, Compression::Deflated] {
+            let whole = archive(compression).len();
+            for free in (0..whole).step_by(7) {
+                let disk = Disk { free, position: 0 };
+                let mut npz = NpzWriter::new(disk, compression);
+                let numbers = vec![1.0f32; 6];
+                let result = npz
+                    .array("a", &[6], |values| values.write(&numbers))
+                    .and_then(|()| npz.strings("names", &["Hüfte", ""]))
+                    .and_then(|()| npz.array("t", &[], |values| values.write(&[0.25f64])))
+                    .and_then(|()| npz.finish().map(drop));
+                let error = result.expect_err("the disk is smaller than the archive");
+                assert_eq!(
+                    error.kind(),
+                    io::ErrorKind::StorageFull,
+                    "{free} bytes free"
+                );
+            }
+        }
     }
 
     #[test]

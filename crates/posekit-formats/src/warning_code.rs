@@ -107,7 +107,7 @@ warning_codes! {
     DecimalComma, "decimal-comma", Warning;
     /// Commas separate values; they were read as blanks.
     CommaSeparator, "comma-separator", Warning;
-    /// Something that is no number follows the last row; it was ignored.
+    /// Something that is not a number follows the last row; it was ignored.
     TrailingText, "trailing-text", Warning;
     /// A joint's axis is not of unit length; its direction is used.
     AxisNotUnit, "axis-not-unit", Note;

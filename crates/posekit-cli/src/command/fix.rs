@@ -37,7 +37,7 @@ pub(crate) struct FixArgs {
     /// Write blanks in joint names as underscores
     #[arg(long)]
     names: bool,
-    /// Fill values that are no numbers (nan, inf) from the frames beside them: rotations by slerp,
+    /// Fill values that are not numbers (nan, inf) from the frames beside them: rotations by slerp,
     /// positions in a straight line; at the beginning and the end the nearest frame is held
     #[arg(long)]
     bridge_gaps: bool,
@@ -77,7 +77,7 @@ pub(crate) fn run(args: &FixArgs, global: &Global) -> Result<(), Failure> {
         extension::refuse_other(output, &["bvh"], extension::REDIRECT)?;
     }
     let plan = output
-        .map(|output| Plan::new(output, &inputs, "bvh"))
+        .map(|output| Plan::new(output, &inputs, "bvh", &global.guard))
         .transpose()?;
     let writes_stdout = output.is_some_and(|output| output == "-");
     if args.json && writes_stdout {
@@ -113,10 +113,10 @@ pub(crate) fn run(args: &FixArgs, global: &Global) -> Result<(), Failure> {
             let destination = plan.as_ref().map(|plan| plan.destination(index));
             let mut written = None;
             match destination {
-                Some(Destination::File(path)) => {
+                Some(Destination::File(target)) => {
                     let options = WriteOptions::default();
-                    write_whole(path, |file| write_to(&fixed.document, options, file))?;
-                    written = Some(path.display().to_string());
+                    write_whole(target, |file| write_to(&fixed.document, options, file))?;
+                    written = Some(target.display().to_string());
                 }
                 Some(Destination::Stdout) => {
                     let mut out = console::binary_stdout();
@@ -143,7 +143,7 @@ pub(crate) fn run(args: &FixArgs, global: &Global) -> Result<(), Failure> {
                 Outcome::Failed { .. } => return Ok(()),
             };
             if args.json {
-                let mut out = console::stdout();
+                let mut out = console::binary_stdout();
                 out.write_all(text.as_bytes())?;
                 out.flush()?;
             } else if !global.quiet {
@@ -169,7 +169,7 @@ fn bridge(
     if !args.bridge_gaps {
         return Err(match bvh::read(bytes) {
             Err(error) => load::refused(name, bytes, &error),
-            Ok(_) => Failure::new("has values that are no numbers").in_file(name),
+            Ok(_) => Failure::new("has values that are not numbers").in_file(name),
         });
     }
     let most_frames = frames_in(args.max_gap, document.frame_time())?;
@@ -229,7 +229,9 @@ fn json_line(name: &str, changes: &[Change], written: Option<&str>) -> String {
 }
 
 fn readable(name: &str, changes: &[Change], written: Option<&str>) -> String {
-    let written = written.map_or(String::new(), |path| format!(", written to {path}"));
+    let written = written.map_or(String::new(), |path| {
+        format!(", written to {}", one_line(path))
+    });
     let count = match changes.len() {
         0 => "nothing to repair".to_owned(),
         count => counted(count, "change"),

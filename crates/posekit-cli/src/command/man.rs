@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 use clap::{Args, Command, CommandFactory};
 use clap_mangen::Man;
 
-use crate::args::Cli;
+use crate::args::{Cli, Global};
 use crate::console;
 use crate::failure::Failure;
-use crate::output::write_whole;
+use crate::output::{Guard, write_whole};
 
 /// Print the manual page, or write a page for every command into a folder
 #[derive(Debug, Args)]
@@ -26,7 +26,7 @@ Examples:
   posekit man --out-dir ~/.local/share/man/man1";
 
 /// Writes the pages.
-pub(crate) fn run(args: &ManArgs) -> Result<(), Failure> {
+pub(crate) fn run(args: &ManArgs, global: &Global) -> Result<(), Failure> {
     let mut command = Cli::command();
     command.build();
     let Some(folder) = &args.out_dir else {
@@ -39,9 +39,9 @@ pub(crate) fn run(args: &ManArgs) -> Result<(), Failure> {
         .filter(|sub| sub.get_name() != "help")
     {
         let name = format!("posekit-{}", sub.get_name());
-        write_page(folder, &name, page(sub.clone())?)?;
+        write_page(folder, &name, page(sub.clone())?, &global.guard)?;
     }
-    write_page(folder, "posekit", page(command)?)
+    write_page(folder, "posekit", page(command)?, &global.guard)
 }
 
 fn page(command: Command) -> Result<Vec<u8>, Failure> {
@@ -50,8 +50,8 @@ fn page(command: Command) -> Result<Vec<u8>, Failure> {
     Ok(page)
 }
 
-fn write_page(folder: &Path, name: &str, page: Vec<u8>) -> Result<(), Failure> {
-    write_whole(&folder.join(format!("{name}.1")), |file| {
-        file.write_all(&page)
-    })
+fn write_page(folder: &Path, name: &str, page: Vec<u8>, guard: &Guard) -> Result<(), Failure> {
+    let path = folder.join(format!("{name}.1"));
+    let target = guard.target(&path, &format!("the page of {name}"))?;
+    write_whole(&target, |file| file.write_all(&page))
 }

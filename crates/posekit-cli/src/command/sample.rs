@@ -58,28 +58,28 @@ pub(crate) fn run(args: &SampleArgs, global: &Global) -> Result<(), Failure> {
         list: vec![Input::sample(sample)],
         ..Inputs::default()
     };
-    let plan = Plan::new(&args.output, &inputs, "bvh")?;
-    if let Destination::File(path) = plan.destination(0)
-        && scene_file::is_scene(path)
+    let plan = Plan::new(&args.output, &inputs, "bvh", &global.guard)?;
+    if let Destination::File(target) = plan.destination(0)
+        && scene_file::is_scene(target.path())
     {
         let text = sample.scene().ok_or_else(|| {
             Failure::usage(format!("'{}' has no keys", args.name)).try_next(
                 "keyed-walk is authored in keys; posekit keys reduce finds some for a motion",
             )
         })?;
-        return write_whole(path, |file| {
+        return write_whole(target, |file| {
             std::io::Write::write_all(file, text.as_bytes())
         });
     }
     let bvh = sample.document()?;
     let options = WriteOptions::default();
     match plan.destination(0) {
-        Destination::File(path) => {
-            write_whole(path, |file| write_to(&bvh, options, file))?;
+        Destination::File(target) => {
+            write_whole(target, |file| write_to(&bvh, options, file))?;
             if !global.quiet {
                 let frames = counted(bvh.frame_count(), "frame");
                 let joints = counted(bvh.joints.len(), "joint");
-                console::note(&format!("wrote {}: {frames} of {joints}", path.display()));
+                console::note(&format!("wrote {}: {frames} of {joints}", target.display()));
             }
             Ok(())
         }
@@ -102,14 +102,14 @@ fn write_robot(args: &SampleArgs, global: &Global, name: &str, text: &str) -> Re
         }],
         ..Inputs::default()
     };
-    let plan = Plan::new(&args.output, &inputs, "urdf")?;
+    let plan = Plan::new(&args.output, &inputs, "urdf", &global.guard)?;
     match plan.destination(0) {
-        Destination::File(path) => {
-            write_whole(path, |file| file.write_all(text.as_bytes()))?;
+        Destination::File(target) => {
+            write_whole(target, |file| file.write_all(text.as_bytes()))?;
             if !global.quiet {
                 let what = urdf::sample::names().find(|(known, _)| *known == name);
                 let what = what.map_or("a robot", |(_, what)| what);
-                console::note(&format!("wrote {}: {what}", path.display()));
+                console::note(&format!("wrote {}: {what}", target.display()));
             }
             Ok(())
         }

@@ -1,7 +1,6 @@
 //! `posekit view`: the window.
 
 use std::ffi::{OsStr, OsString};
-use std::io::{self, Read};
 use std::path::Path;
 
 use clap::Args;
@@ -10,9 +9,11 @@ use posekit_viewer::load::Input as Opened;
 use posekit_viewer::state::clip::ReadingSaid;
 use posekit_viewer::{ViewerOptions, run_native};
 
-use crate::args::RendererArg;
+use crate::args::{Global, RendererArg};
+use crate::bytes;
 use crate::failure::Failure;
 use crate::inputs::{self, Source};
+use crate::output::Guard;
 use crate::positions::PositionsArgs;
 use crate::up::UpArgs;
 
@@ -57,11 +58,11 @@ Examples:
 Without a display: posekit render walk.bvh -o walk.mp4, or posekit serve takes/";
 
 /// Runs the command: returns when the window is closed.
-pub(crate) fn run(args: &ViewArgs) -> Result<(), Failure> {
+pub(crate) fn run(args: &ViewArgs, global: &Global) -> Result<(), Failure> {
     if !has_display() {
         return Err(no_window("there is no display to open a window on"));
     }
-    let mut options = options(&args.files)?;
+    let mut options = options(&args.files, &global.guard)?;
     options.renderer = args.renderer.into();
     options.reading = ReadingSaid {
         positions: args.positions.is_given().then(|| args.positions.policies()),
@@ -98,7 +99,7 @@ fn sample_robot(name: &OsStr) -> Option<Opened> {
     })
 }
 
-fn options(names: &[OsString]) -> Result<ViewerOptions, Failure> {
+fn options(names: &[OsString], guard: &Guard) -> Result<ViewerOptions, Failure> {
     let mut options = ViewerOptions::default();
     for name in names {
         // A folder is opened as one: the window lists what is in it.
@@ -125,12 +126,7 @@ fn options(names: &[OsString]) -> Result<ViewerOptions, Failure> {
                     options.paths.push(path);
                 }
                 Source::Stdin => {
-                    let mut bytes = Vec::new();
-                    io::stdin()
-                        .lock()
-                        .read_to_end(&mut bytes)
-                        .map_err(|error| Failure::cannot_read(Path::new(&name), &error))?;
-                    let bytes = bytes.into();
+                    let bytes = bytes::of_stdin(guard)?.into();
                     options.inputs.push(Opened::Bytes { name, bytes });
                 }
                 Source::Sample(sample) => {
@@ -155,12 +151,12 @@ mod tests {
             "sample:planar2",
             "sample:arm7",
         ] {
-            let options = options(&[OsString::from(name)]).unwrap();
+            let options = options(&[OsString::from(name)], &Guard::default()).unwrap();
             let [Opened::Bytes { name, bytes }] = options.inputs.as_slice() else {
                 panic!("one robot");
             };
             assert!(name.ends_with(".urdf") && bytes.starts_with(b"<?xml"));
         }
-        assert!(options(&[OsString::from("sample:arm5")]).is_err());
+        assert!(options(&[OsString::from("sample:arm5")], &Guard::default()).is_err());
     }
 }

@@ -1,18 +1,19 @@
 //! Which file each input's result is written to, settled before any work starts.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::ffi::OsStr;
-use std::fs;
 use std::path::{Component, Path, PathBuf};
 
+use super::guard::{Guard, Target};
 use crate::failure::Failure;
 use crate::inputs::{Input, Inputs, STDIN, Source};
+use crate::scene_file;
 
 /// Where one result goes.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub(crate) enum Destination {
     /// A file.
-    File(PathBuf),
+    File(Target),
     /// Standard output.
     Stdout,
 }
@@ -31,13 +32,19 @@ impl Plan {
     /// slash, or any plain name when the inputs are a set): the inputs' sub-folders mirrored in it.
     /// A name with `{stem}`, `{dir}` or `{ext}` in it: that pattern, filled in for every input.
     ///
-    /// No result may land on an input, and no two on the same file.
-    pub(crate) fn new(output: &OsStr, inputs: &Inputs, extension: &str) -> Result<Self, Failure> {
+    /// No result may land on an input, and no two on the same file: `guard` sees to that.
+    pub(crate) fn new(
+        output: &OsStr,
+        inputs: &Inputs,
+        extension: &str,
+        guard: &Guard,
+    ) -> Result<Self, Failure> {
         if output.is_empty() {
             return Err(Failure::usage("the output's name is empty"));
         }
+        note_inputs(inputs, guard)?;
         if output == STDIN {
-            return Self::to_stdout(inputs);
+            return Self::to_stdout(inputs, guard);
         }
         let path = Path::new(output);
         let pattern = output.to_str().filter(|text| text.contains('{'));
@@ -57,19 +64,23 @@ impl Plan {
             inputs.list.iter().map(|_| path.to_owned()).collect()
         };
         refuse_collisions(&files, inputs)?;
-        refuse_inputs(&files, inputs)?;
+        let targets = files.iter().zip(&inputs.list).map(|(file, input)| {
+            let target = guard.target(file, &input.name())?;
+            Ok(Destination::File(target))
+        });
         Ok(Self {
-            destinations: files.into_iter().map(Destination::File).collect(),
+            destinations: targets.collect::<Result<_, Failure>>()?,
         })
     }
 
-    fn to_stdout(inputs: &Inputs) -> Result<Self, Failure> {
+    fn to_stdout(inputs: &Inputs, guard: &Guard) -> Result<Self, Failure> {
         if inputs.is_set {
             return Err(
                 Failure::usage("several results cannot share standard output")
                     .try_next("give a folder with -o"),
             );
         }
+        guard.refuse_stdout()?;
         Ok(Self {
             destinations: vec![Destination::Stdout; inputs.list.len()],
         })
@@ -154,6 +165,20 @@ fn unknown_placeholder(text: &str) -> Failure {
         .try_next("there are {stem}, {dir} and {ext}")
 }
 
+/// What is read is known before anything is written: of several inputs the first result is there before the last
+/// input is read.
+fn note_inputs(inputs: &Inputs, guard: &Guard) -> Result<(), Failure> {
+    for input in &inputs.list {
+        if let Source::File(path) = &input.source {
+            guard.reads(path)?;
+            if inputs.list.len() > 1 && scene_file::is_scene(path) {
+                scene_file::note_files(path, guard)?;
+            }
+        }
+    }
+    Ok(())
+}
+
 fn refuse_collisions(files: &[PathBuf], inputs: &Inputs) -> Result<(), Failure> {
     let mut first_at: BTreeMap<&Path, usize> = BTreeMap::new();
     for (index, file) in files.iter().enumerate() {
@@ -169,32 +194,12 @@ fn refuse_collisions(files: &[PathBuf], inputs: &Inputs) -> Result<(), Failure> 
     Ok(())
 }
 
-fn refuse_inputs(files: &[PathBuf], inputs: &Inputs) -> Result<(), Failure> {
-    let real_inputs: BTreeSet<PathBuf> = inputs
-        .list
-        .iter()
-        .filter_map(|input| match &input.source {
-            Source::File(path) => fs::canonicalize(path).ok(),
-            Source::Stdin | Source::Sample(_) => None,
-        })
-        .collect();
-    for file in files {
-        if fs::canonicalize(file).is_ok_and(|real| real_inputs.contains(&real)) {
-            return Err(Failure::usage(format!(
-                "{} is an input and would be overwritten",
-                file.display()
-            ))
-            .try_next("choose another output"));
-        }
-    }
-    Ok(())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::inputs::expand;
     use std::ffi::OsString;
+    use std::fs;
 
     fn tree() -> tempfile::TempDir {
         let folder = tempfile::tempdir().unwrap();
@@ -210,12 +215,18 @@ mod tests {
         let tree = tree();
         let names: Vec<OsString> = names.iter().map(|n| tree.path().join(n).into()).collect();
         let inputs = expand(&names);
-        let plan = Plan::new(tree.path().join(output).as_os_str(), &inputs, "npz");
+        let plan = Plan::new(
+            tree.path().join(output).as_os_str(),
+            &inputs,
+            "npz",
+            &Guard::default(),
+        );
         let plan = plan.map_err(|failure| failure.to_string())?;
         let root = tree.path().to_owned();
         Ok((0..inputs.list.len())
             .map(|index| match plan.destination(index) {
-                Destination::File(path) => path
+                Destination::File(target) => target
+                    .path()
                     .strip_prefix(&root)
                     .unwrap()
                     .to_str()

@@ -13,6 +13,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tempfile::Builder;
 
+use super::guard::Target;
 use crate::failure::Failure;
 
 /// Large enough that the cost of a system call does not show.
@@ -55,45 +56,55 @@ pub(crate) fn interrupt_is_no_failure() {
 /// A file that can be written and sought, as archive formats need.
 pub(crate) type WholeFile = BufWriter<File>;
 
-/// Writes `path` by `write`, so that it appears complete or not at all; makes its folder if need be.
+/// Writes `target` by `write`, so that it appears complete or not at all; makes its folder if need be.
 ///
 /// A symbolic link is followed and stays a link. A device or a pipe is written directly.
 pub(crate) fn write_whole(
-    path: &Path,
+    target: &Target,
     write: impl FnOnce(&mut WholeFile) -> io::Result<()>,
 ) -> Result<(), Failure> {
-    write_whole_io(path, write).map_err(|error| Failure::cannot_write(path, &error))
+    let cannot = |error: io::Error| Failure::cannot_write(target.path(), &error);
+    let real = target.real();
+    match fs::metadata(real) {
+        Ok(meta) if meta.is_dir() => {
+            return Err(cannot(io::Error::from(io::ErrorKind::IsADirectory)));
+        }
+        Ok(meta) if !meta.is_file() => return write_through(real, write).map_err(cannot),
+        _ => {}
+    }
+    let unfinished_file = write_beside(real, write).map_err(cannot)?;
+    target.refuse_known()?;
+    unfinished_file.rename_to(real).map_err(cannot)?;
+    target.is_written();
+    Ok(())
 }
 
-fn write_whole_io(
+/// Writes what is no file: a device or a pipe.
+fn write_through(
     path: &Path,
     write: impl FnOnce(&mut WholeFile) -> io::Result<()>,
 ) -> io::Result<()> {
-    // The file behind a link, when there is one already.
-    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-    match fs::metadata(&target) {
-        Ok(meta) if meta.is_dir() => {
-            return Err(io::Error::new(io::ErrorKind::IsADirectory, "is a folder"));
-        }
-        Ok(meta) if !meta.is_file() => {
-            let file = File::options().write(true).open(&target)?;
-            let mut buffered = BufWriter::with_capacity(BUFFER_BYTES, file);
-            write(&mut buffered)?;
-            return buffered.flush();
-        }
-        _ => {}
-    }
-    let folder = match target.parent() {
+    let file = File::options().write(true).open(path)?;
+    let mut buffered = BufWriter::with_capacity(BUFFER_BYTES, file);
+    write(&mut buffered)?;
+    buffered.flush()
+}
+
+/// Writes a temporary file in the folder of `real`.
+fn write_beside(
+    real: &Path,
+    write: impl FnOnce(&mut WholeFile) -> io::Result<()>,
+) -> io::Result<Unfinished> {
+    let folder = match real.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     };
     fs::create_dir_all(folder)?;
-    let unfinished_file = create_beside(folder, &target)?;
+    let unfinished_file = create_beside(folder, real)?;
     let mut buffered = BufWriter::with_capacity(BUFFER_BYTES, unfinished_file.file.try_clone()?);
     write(&mut buffered)?;
     buffered.flush()?;
-    drop(buffered);
-    unfinished_file.rename_to(&target)
+    Ok(unfinished_file)
 }
 
 /// A temporary file that is removed unless it is renamed into place.
@@ -148,7 +159,13 @@ impl Drop for Unfinished {
 
 #[cfg(test)]
 mod tests {
+    use super::super::guard::Guard;
     use super::*;
+
+    /// The place of a result of a command of its own.
+    fn target(path: &Path) -> Target {
+        Guard::default().target(path, "the result").unwrap()
+    }
 
     fn names(folder: &Path) -> Vec<String> {
         let mut names: Vec<_> = fs::read_dir(folder)
@@ -164,7 +181,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.txt");
         fs::write(&path, "old").unwrap();
-        let result = write_whole(&path, |file| {
+        let result = write_whole(&target(&path), |file| {
             file.write_all(&[b'x'; 1 << 20])?;
             Err(io::Error::other("broke"))
         });
@@ -178,7 +195,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("deep/er/a.txt");
         for text in ["one", "two"] {
-            write_whole(&path, |file| file.write_all(text.as_bytes())).unwrap();
+            write_whole(&target(&path), |file| file.write_all(text.as_bytes())).unwrap();
             assert_eq!(fs::read_to_string(&path).unwrap(), text);
         }
         assert_eq!(names(path.parent().unwrap()), ["a.txt"]);
@@ -194,7 +211,7 @@ mod tests {
         fs::write(&real, "old").unwrap();
         fs::set_permissions(&real, fs::Permissions::from_mode(0o640)).unwrap();
         std::os::unix::fs::symlink(&real, &link).unwrap();
-        write_whole(&link, |file| file.write_all(b"new")).unwrap();
+        write_whole(&target(&link), |file| file.write_all(b"new")).unwrap();
         assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
         assert_eq!(fs::read_to_string(&real).unwrap(), "new");
         assert_eq!(
@@ -205,8 +222,39 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
+    fn a_link_to_what_is_not_there_yet_stays_a_link() {
+        let folder = tempfile::tempdir().unwrap();
+        let link = folder.path().join("link.txt");
+        std::os::unix::fs::symlink("later/real.txt", &link).unwrap();
+        write_whole(&target(&link), |file| file.write_all(b"new")).unwrap();
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        let real = folder.path().join("later/real.txt");
+        assert_eq!(fs::read_to_string(real).unwrap(), "new");
+    }
+
+    #[test]
+    fn a_name_that_turns_out_to_be_another_ones_is_refused_when_it_is_written() {
+        let folder = tempfile::tempdir().unwrap();
+        let [first, second] = ["A.txt", "a.txt"].map(|name| folder.path().join(name));
+        let guard = Guard::default();
+        let [one, two] = [&first, &second].map(|path| guard.target(path, "a result").unwrap());
+        write_whole(&one, |file| file.write_all(b"one")).unwrap();
+        // As on a file system that does not tell them apart.
+        if !second.exists() {
+            fs::hard_link(&first, &second).unwrap();
+        }
+        let error = write_whole(&two, |file| file.write_all(b"two")).unwrap_err();
+        assert!(error.to_string().contains("A.txt"), "{error}");
+        assert_eq!(fs::read_to_string(&first).unwrap(), "one");
+    }
+
+    #[cfg(unix)]
+    #[test]
     fn a_device_is_written_and_not_replaced() {
-        write_whole(Path::new("/dev/null"), |file| file.write_all(b"gone")).unwrap();
+        write_whole(&target(Path::new("/dev/null")), |file| {
+            file.write_all(b"gone")
+        })
+        .unwrap();
         assert!(!fs::metadata("/dev/null").unwrap().is_file());
     }
 }

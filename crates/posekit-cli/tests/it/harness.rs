@@ -150,6 +150,9 @@ impl From<Output> for Ran {
     }
 }
 
+/// The names of the real files that tests go through: more may be put beside them.
+pub(crate) const REAL_FILES: &str = include_str!("../../../posekit-formats/tests/real_files.txt");
+
 /// The folder of real files beside the project, or `None` with a message when it is not there.
 pub(crate) fn real_data() -> Option<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");

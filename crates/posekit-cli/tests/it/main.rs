@@ -8,6 +8,7 @@
     reason = "helpers of tests fail and skip as tests do"
 )]
 
+mod bounds;
 mod check;
 mod convert;
 mod failures;
@@ -15,6 +16,7 @@ mod fix;
 mod fk;
 mod floors;
 mod gltf_scenes;
+mod guard;
 mod harness;
 mod ik;
 mod ik_study;
@@ -33,5 +35,6 @@ mod robots;
 mod serve;
 #[cfg(feature = "window")]
 mod shots;
+mod terminal;
 mod whole_files;
 mod wild_files;

@@ -5,21 +5,28 @@ use std::path::Path;
 use posekit::motion::{Motion, PositionPolicy};
 use posekit_formats::bvh;
 
-use crate::harness::{Folder, real_data};
+use crate::harness::{Folder, REAL_FILES, real_data};
 use crate::inside::assert_fits;
 
 #[test]
 fn every_real_file_is_described_posed_and_converted() {
     let Some(data) = real_data() else { return };
-    let data = data.to_str().unwrap();
     let folder = Folder::with_arm();
-    let files = folder.succeed(&["info", "--json", data]).lines().count();
-    assert!(files >= 49, "{files}");
-    folder.succeed(&["fk", data, "-o", "arrays", "--frames", "0..20", "--quiet"]);
-    folder.succeed(&["convert", data, "again", "--quiet"]);
-    let names = folder.names();
-    let with = |ending: &str| names.iter().filter(|name| name.ends_with(ending)).count();
-    assert_eq!((with(".npz"), with(".bvh")), (files, files + 1));
+    for name in REAL_FILES.lines() {
+        let bytes =
+            std::fs::read(data.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
+        folder.write(&format!("data/{name}"), bytes);
+    }
+    let files = REAL_FILES.lines().count();
+    let described = folder.succeed(&["info", "--json", "data"]);
+    assert_eq!(described.lines().count(), files);
+    folder.succeed(&["fk", "data", "-o", "arrays", "--frames", "0..20", "--quiet"]);
+    folder.succeed(&["convert", "data", "again", "--quiet"]);
+    for name in REAL_FILES.lines() {
+        let arrays = format!("arrays/{}", name.replace(".bvh", ".npz"));
+        assert!(folder.exists(&arrays), "{arrays}");
+        assert!(folder.exists(&format!("again/{name}")), "again/{name}");
+    }
 }
 
 #[test]

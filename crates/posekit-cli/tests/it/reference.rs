@@ -9,6 +9,8 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use crate::harness::{REAL_FILES, real_data};
+
 const WORKSPACE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
 
 /// What the real files do not have: a root OFFSET beside position channels, and two of those only;
@@ -72,12 +74,8 @@ Frame Time: 0.04
 
 #[test]
 fn every_real_file_agrees_at_every_joint_of_every_frame() {
-    let data = Path::new(WORKSPACE).join("../shared/data");
-    let files = bvh_files(&data);
-    if files.is_empty() {
-        eprintln!("skipped: no BVH files under {}", data.display());
-        return;
-    }
+    let Some(data) = real_data() else { return };
+    let files: Vec<PathBuf> = REAL_FILES.lines().map(|name| data.join(name)).collect();
     for root_offset in ["replace", "add"] {
         agrees(&files, root_offset);
     }
@@ -198,22 +196,4 @@ fn reference(args: &[&OsStr]) -> Option<(bool, String)> {
         "the reference itself failed: {said}"
     );
     Some((output.status.success(), said.into_owned()))
-}
-
-/// Every `.bvh` below a folder, in order of path.
-fn bvh_files(folder: &Path) -> Vec<PathBuf> {
-    let mut pending = vec![folder.to_owned()];
-    let mut found = Vec::new();
-    while let Some(folder) = pending.pop() {
-        for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
-            let path = entry.path();
-            if path.is_dir() {
-                pending.push(path);
-            } else if path.extension().is_some_and(|extension| extension == "bvh") {
-                found.push(path);
-            }
-        }
-    }
-    found.sort();
-    found
 }

@@ -185,8 +185,8 @@ fn what_makes_no_sense_is_refused_before_anything_is_drawn() {
         (&["-o", "x.png", "--camera", "moon"], "three-quarter"),
         (&["-o", "x.gif", "--transparent"], "name it .png or .apng"),
         (&["-o", "x.gif", "--contact-sheet", "2"], "name it .png"),
-        (&["-o", "x.gif", "--fps", "0"], "no frame rate"),
-        (&["-o", "x.gif", "--fps", "nan"], "no frame rate"),
+        (&["-o", "x.gif", "--fps", "0"], "not a frame rate"),
+        (&["-o", "x.gif", "--fps", "nan"], "not a frame rate"),
         (&["-o", "x.png", "--ghosts", "0"], "not in"),
         (
             &["-o", "x.png", "--overlay", "a", "--beside", "b"],

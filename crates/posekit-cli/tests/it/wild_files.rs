@@ -41,7 +41,7 @@ const BLAMED: [&str; 5] = [
 ];
 
 #[test]
-fn position_channels_that_are_no_places_are_one_finding_that_names_the_option() {
+fn position_channels_that_are_not_positions_are_one_finding_that_names_the_option() {
     let folder = Folder::with_arm();
     for (name, joints, option) in [
         (

@@ -1,4 +1,4 @@
-//! Values that are no numbers, and bridges over them.
+//! Values that are not numbers, and bridges over them.
 //!
 //! `nan`, `inf` and their like stand in files where a marker was lost or a program divided by zero. They
 //! are no motion, so [`read`](super::read()) refuses them; [`read_with_gaps`](super::read_with_gaps) says
@@ -26,7 +26,7 @@ pub struct Gap {
     pub column: usize,
 }
 
-/// The values of one joint that are no numbers.
+/// The values of one joint that are not numbers.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct JointGaps {
     /// The joint's index.
@@ -194,7 +194,7 @@ fn change(name: &str, gaps: &JointGaps) -> Change {
         location: None,
         count: gaps.count,
         message: format!(
-            "{} {values} of {name} that were no numbers bridged, in {}",
+            "{} {values} of {name} that were not numbers bridged, in {}",
             gaps.count,
             in_words(&gaps.runs)
         ),

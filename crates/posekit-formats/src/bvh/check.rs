@@ -172,13 +172,13 @@ impl OutOfRange {
     }
 }
 
-/// What is said of a joint with values that are no numbers.
+/// What is said of a joint with values that are not numbers.
 fn gap_finding(bvh: &Bvh) -> impl Fn(&JointGaps) -> Finding {
     |gaps| {
         let name = bvh.joints[gaps.joint].name();
         let (is, number) = match gaps.count {
-            1 => ("value", "is no number"),
-            _ => ("values", "are no numbers"),
+            1 => ("value", "is not a number"),
+            _ => ("values", "are not numbers"),
         };
         Finding {
             code: FindingCode::NotFinite,

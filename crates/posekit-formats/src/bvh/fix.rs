@@ -57,7 +57,7 @@ pub enum ChangeCode {
     FrameTimeKept,
     /// Values of which no motion can be made were left.
     ValueKept,
-    /// Values that were no numbers were filled from the frames beside them.
+    /// Values that were not numbers were filled from the frames beside them.
     GapBridged,
     /// Blanks in a name became underscores.
     NameBlanks,

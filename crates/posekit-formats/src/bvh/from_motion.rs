@@ -1,5 +1,7 @@
 //! From the library's motion to a document.
 
+use std::sync::Arc;
+
 use posekit::motion::{Channel, Motion};
 use posekit::rotation::{Axis, EulerOrder};
 use posekit::skeleton::{JointId, Skeleton};
@@ -22,52 +24,90 @@ impl Bvh {
     /// The joints stand in depth-first order, as the format has it, whatever their order in the
     /// skeleton.
     pub fn from_motion(motion: &Motion, order: EulerOrder) -> Self {
-        let skeleton = motion.skeleton();
-        let ids = depth_first(skeleton);
-        let mut place_of = vec![0; ids.len()];
-        for (place, id) in ids.iter().enumerate() {
-            place_of[id.index()] = place;
+        let mut rows = Rows::of(motion, order);
+        let mut values = Vec::new();
+        rows.append(motion, &mut values);
+        Self {
+            joints: rows.joints(),
+            motion: Some(BvhMotion {
+                frame_time_secs: motion.frame_time_secs(),
+                frame_count: motion.frame_count(),
+                values,
+            }),
         }
+    }
+}
+
+/// The rows of a motion that may come in pieces, one after the other.
+pub(super) struct Rows {
+    skeleton: Arc<Skeleton>,
+    order: EulerOrder,
+    /// Depth first, as the rows have them.
+    ids: Vec<JointId>,
+    is_translated: Vec<bool>,
+    /// The angles of the last frame, which those of the next are closest to.
+    previous_rad: Vec<[f64; 3]>,
+}
+
+impl Rows {
+    /// Rows for the skeleton and the translated joints of a motion.
+    pub(super) fn of(motion: &Motion, order: EulerOrder) -> Self {
+        let skeleton = Arc::clone(motion.skeleton());
+        let ids = depth_first(&skeleton);
         let mut is_translated = vec![false; ids.len()];
         for joint in motion.translated_joints() {
             is_translated[joint.index()] = true;
         }
-        let joints = ids.iter().map(|&id| BvhJoint {
-            name: name(skeleton, id),
-            parent: skeleton.parent(id).map(|parent| place_of[parent.index()]),
-            offset: skeleton
-                .rest_translation(id)
-                .as_dvec3()
-                .to_array()
-                .map(rounded),
-            channels: channels(skeleton.is_end_site(id), is_translated[id.index()], order),
-            is_end_site: skeleton.is_end_site(id),
-            end_name: end_name(skeleton, id),
+        Self {
+            previous_rad: vec![[0.0; 3]; ids.len()],
+            skeleton,
+            order,
+            ids,
+            is_translated,
+        }
+    }
+
+    /// The joints of the document, in the order of the rows.
+    pub(super) fn joints(&self) -> Vec<BvhJoint> {
+        let skeleton = &*self.skeleton;
+        let mut place_of = vec![0; self.ids.len()];
+        for (place, id) in self.ids.iter().enumerate() {
+            place_of[id.index()] = place;
+        }
+        let joints = self.ids.iter().map(|&id| {
+            let is_end_site = skeleton.is_end_site(id);
+            let is_translated = self.is_translated[id.index()];
+            BvhJoint {
+                name: name(skeleton, id),
+                parent: skeleton.parent(id).map(|parent| place_of[parent.index()]),
+                offset: skeleton
+                    .rest_translation(id)
+                    .as_dvec3()
+                    .to_array()
+                    .map(rounded),
+                channels: channels(is_end_site, is_translated, self.order),
+                is_end_site,
+                end_name: end_name(skeleton, id),
+            }
         });
-        let joints: Vec<BvhJoint> = joints.collect();
-        let mut values = Vec::new();
-        let mut previous_rad = vec![[0.0; 3]; ids.len()];
+        joints.collect()
+    }
+
+    /// Appends the rows of a motion, which goes on where the one before ended.
+    pub(super) fn append(&mut self, motion: &Motion, values: &mut Vec<f64>) {
+        let with_channels = |&&id: &&JointId| !self.skeleton.is_end_site(id);
         for frame in 0..motion.frame_count() {
-            for &id in ids.iter().filter(|&&id| !skeleton.is_end_site(id)) {
-                if is_translated[id.index()] {
+            for &id in self.ids.iter().filter(with_channels) {
+                if self.is_translated[id.index()] {
                     let place = motion.translation(frame, id).as_dvec3();
                     values.extend(place.to_array().map(rounded));
                 }
-                let previous = &mut previous_rad[id.index()];
+                let previous = &mut self.previous_rad[id.index()];
                 let rotation = motion.rotation(frame, id).as_dquat();
-                *previous = order.from_quat_near(rotation, *previous).angles_rad;
-                let angles = previous.iter().take(order.axes().len());
+                *previous = self.order.from_quat_near(rotation, *previous).angles_rad;
+                let angles = previous.iter().take(self.order.axes().len());
                 values.extend(angles.map(|angle| rounded(angle.to_degrees())));
             }
-        }
-        let motion = BvhMotion {
-            frame_time_secs: motion.frame_time_secs(),
-            frame_count: motion.frame_count(),
-            values,
-        };
-        Self {
-            joints,
-            motion: Some(motion),
         }
     }
 }

@@ -47,4 +47,4 @@ pub use read::{
     Extent, MAX_DEPTH, MAX_JOINTS, MAX_NAME_BYTES, PROGRESS_BYTES, Places, ReadOptions, RowParser,
     locate, read, read_with, read_with_gaps,
 };
-pub use write::{Indent, LineEnding, WriteOptions, write, write_to};
+pub use write::{Indent, LineEnding, WriteOptions, write, write_motion_to, write_to};

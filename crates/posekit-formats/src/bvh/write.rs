@@ -2,10 +2,12 @@
 
 use std::io;
 
-use posekit::motion::Channel;
+use posekit::motion::{Channel, Motion};
+use posekit::rotation::EulerOrder;
 
 use super::decimal::Decimals;
-use super::{Bvh, BvhJoint, BvhMotion, EndName};
+use super::from_motion::Rows;
+use super::{Bvh, BvhJoint, EndName, InvalidBvh};
 
 /// How the text looks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -39,6 +41,9 @@ pub enum Indent {
 /// How many bytes gather before they are handed to the output.
 const BUFFER_BYTES: usize = 1 << 16;
 
+/// Deeper joints are indented no further: the blanks of a chain of thousands would outweigh all else many times.
+const MOST_INDENTS: usize = 64;
+
 /// Writes a document with the default options.
 ///
 /// Numbers are the shortest that read back as the same value, in plain decimal notation, since many
@@ -65,6 +70,74 @@ pub fn write(bvh: &Bvh) -> Vec<u8> {
 /// Those of the output, and [`io::ErrorKind::InvalidInput`] with the [`InvalidBvh`](super::InvalidBvh)
 /// inside when the document is not valid; nothing is written then.
 pub fn write_to(bvh: &Bvh, options: WriteOptions, mut output: impl io::Write) -> io::Result<()> {
+    let (mut text, columns) = begin(bvh, options)?;
+    if let Some(motion) = &bvh.motion {
+        text.motion_head(motion.frame_count, motion.frame_time_secs);
+        write_rows(
+            &mut text,
+            &columns,
+            &motion.values,
+            motion.frame_count,
+            &mut output,
+        )?;
+    }
+    output.write_all(&text.bytes)?;
+    output.flush()
+}
+
+/// Writes a motion that comes in pieces, one after the other, as [`write_to`] writes the document that
+/// [`Bvh::from_motion`] makes of it whole: a motion of any length in the memory of one piece.
+///
+/// `head` is of the same skeleton, frame time and translated joints, and need not have frames. There is at least one
+/// frame in each piece, and `frame_count` of them in all.
+///
+/// # Errors
+///
+/// Those of [`write_to`], and [`io::ErrorKind::InvalidInput`] when the pieces have not `frame_count` frames; what was
+/// written until then is no whole file.
+pub fn write_motion_to(
+    head: &Motion,
+    frame_count: usize,
+    pieces: impl IntoIterator<Item = Motion>,
+    order: EulerOrder,
+    options: WriteOptions,
+    mut output: impl io::Write,
+) -> io::Result<()> {
+    let mut rows = Rows::of(head, order);
+    let document = Bvh {
+        joints: rows.joints(),
+        motion: None,
+    };
+    let (mut text, columns) = begin(&document, options)?;
+    text.motion_head(frame_count, head.frame_time_secs());
+    let mut values = Vec::new();
+    let mut written = 0;
+    for piece in pieces {
+        values.clear();
+        rows.append(&piece, &mut values);
+        if !values.iter().all(|value| value.is_finite()) {
+            let problem = InvalidBvh::NotFinite;
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, problem));
+        }
+        write_rows(
+            &mut text,
+            &columns,
+            &values,
+            piece.frame_count(),
+            &mut output,
+        )?;
+        written += piece.frame_count();
+    }
+    if written != frame_count {
+        let what = format!("{written} frames came of a motion of {frame_count}");
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, what));
+    }
+    output.write_all(&text.bytes)?;
+    output.flush()
+}
+
+/// The hierarchy as text, and the columns of a row in the order in which they are written.
+fn begin(bvh: &Bvh, options: WriteOptions) -> io::Result<(Text, Vec<usize>)> {
     bvh.validate()
         .map_err(|problem| io::Error::new(io::ErrorKind::InvalidInput, problem))?;
     let order = depth_first_order(&bvh.joints);
@@ -81,16 +154,8 @@ pub fn write_to(bvh: &Bvh, options: WriteOptions, mut output: impl io::Write) ->
         decimals: Decimals::new(),
     };
     write_hierarchy(&mut text, &bvh.joints, &order);
-    if let Some(motion) = &bvh.motion {
-        text.line(0, b"MOTION");
-        text.line(0, format!("Frames: {}", motion.frame_count).as_bytes());
-        text.bytes.extend_from_slice(b"Frame Time: ");
-        text.number(motion.frame_time_secs);
-        text.end_line();
-        write_rows(&mut text, bvh, motion, &order, &mut output)?;
-    }
-    output.write_all(&text.bytes)?;
-    output.flush()
+    let columns = columns_in_order(bvh, &order);
+    Ok((text, columns))
 }
 
 /// The text so far, and its style.
@@ -103,7 +168,7 @@ struct Text {
 
 impl Text {
     fn begin_line(&mut self, depth: usize) {
-        for _ in 0..depth {
+        for _ in 0..depth.min(MOST_INDENTS) {
             self.bytes.extend_from_slice(&self.indent);
         }
     }
@@ -115,6 +180,14 @@ impl Text {
     fn line(&mut self, depth: usize, content: &[u8]) {
         self.begin_line(depth);
         self.bytes.extend_from_slice(content);
+        self.end_line();
+    }
+
+    fn motion_head(&mut self, frame_count: usize, frame_time_secs: f64) {
+        self.line(0, b"MOTION");
+        self.line(0, format!("Frames: {frame_count}").as_bytes());
+        self.bytes.extend_from_slice(b"Frame Time: ");
+        self.number(frame_time_secs);
         self.end_line();
     }
 
@@ -230,14 +303,13 @@ fn append_in_comment(bytes: &mut Vec<u8>, name: &[u8]) {
 
 fn write_rows(
     text: &mut Text,
-    bvh: &Bvh,
-    motion: &BvhMotion,
-    order: &[usize],
+    columns: &[usize],
+    values: &[f64],
+    frame_count: usize,
     output: &mut impl io::Write,
 ) -> io::Result<()> {
-    let columns = columns_in_order(bvh, order);
-    for frame in 0..motion.frame_count {
-        let row = &motion.values[frame * columns.len()..(frame + 1) * columns.len()];
+    for frame in 0..frame_count {
+        let row = &values[frame * columns.len()..(frame + 1) * columns.len()];
         for (place, &column) in columns.iter().enumerate() {
             if place > 0 {
                 text.bytes.push(b' ');

@@ -371,7 +371,7 @@ fn transform(node: &Node, index: usize, is_joint: bool, notes: &mut Notes) -> Tr
     };
     if !length.is_finite() || (length - 1.0).abs() > UNIT_TOLERANCE {
         let message = match rotation == DQuat::IDENTITY {
-            true => "the rotation is no quaternion; none was taken".to_owned(),
+            true => "the rotation is not a quaternion; none was taken".to_owned(),
             false => format!("the rotation is not of unit length ({length:.4}); it was made so"),
         };
         warn(WarningCode::RotationNotUnit, "rotation", message);

@@ -294,7 +294,7 @@ impl<const N: usize> Keys<N> {
         let mut keys = Vec::with_capacity(self.times.len());
         for (index, time) in self.times.iter().enumerate() {
             let [incoming, value, outgoing] =
-                key(self.at(index)).ok_or("a rotation is no quaternion")?;
+                key(self.at(index)).ok_or("a rotation is not a quaternion")?;
             keys.push(Keyframe {
                 tangents: match self.said {
                     Said::CubicSpline => Tangents::Broken { incoming, outgoing },

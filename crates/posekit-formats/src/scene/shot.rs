@@ -131,9 +131,26 @@ impl Shot {
     /// made by hand has a rate that cannot be.
     ///
     /// Its translated joints are the roots and those that a motion or a key moves.
+    ///
+    /// It takes memory for each frame and joint: see [`frame_count`](Self::frame_count), and
+    /// [`bake_frames`](Self::bake_frames) for a part.
     pub fn bake(&self, frame_time: Option<FrameTime>) -> Motion {
-        let frame_time = frame_time.unwrap_or(self.frame_time);
-        let config = BakeConfig::of_range(self.range_secs, frame_time);
+        self.bake_frames(frame_time, 0..self.frame_count(frame_time))
+    }
+
+    /// How many frames [`bake`](Self::bake) makes.
+    pub fn frame_count(&self, frame_time: Option<FrameTime>) -> usize {
+        self.config(frame_time).frame_count
+    }
+
+    /// Some of the frames that [`bake`](Self::bake) makes, in the order of their numbers here: the same poses. Frames
+    /// past its end go on beyond the scene's range.
+    pub fn bake_frames(
+        &self,
+        frame_time: Option<FrameTime>,
+        frames: impl ExactSizeIterator<Item = usize>,
+    ) -> Motion {
+        let config = self.config(frame_time);
         let mut moving: Vec<JointId> = self.skeleton.roots().collect();
         moving.extend(self.animation.translations().map(|(joint, _)| joint));
         for layer in &self.layers {
@@ -142,14 +159,19 @@ impl Shot {
             moving.extend(theirs.map(|&(_, to)| to));
         }
         let skeleton = Arc::clone(&self.skeleton);
-        let (frames, step) = (config.frame_count, frame_time.secs());
-        let mut motion = Motion::at_rest(skeleton, frames, frame_time, moving);
+        let step = config.frame_time.secs();
+        let mut motion = Motion::at_rest(skeleton, frames.len(), config.frame_time, moving);
         let mut pose = LocalPose::rest(&self.skeleton);
-        for (frame, count) in (0..frames).zip(0_u32..) {
+        for (place, frame) in frames.enumerate() {
+            let count = u32::try_from(frame).unwrap_or(u32::MAX);
             self.sample_into(config.start_secs + f64::from(count) * step, &mut pose);
-            motion.set_pose(frame, &pose);
+            motion.set_pose(place, &pose);
         }
         motion
+    }
+
+    fn config(&self, frame_time: Option<FrameTime>) -> BakeConfig {
+        BakeConfig::of_range(self.range_secs, frame_time.unwrap_or(self.frame_time))
     }
 }
 

@@ -22,6 +22,7 @@ mod gltf_wild;
 mod guide_pages;
 mod ik_course;
 mod ik_course_jacobian;
+mod in_pieces;
 mod poses;
 mod robot_arms;
 mod robot_ways;

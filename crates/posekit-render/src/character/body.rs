@@ -11,19 +11,22 @@ use posekit::skeleton::{JointId, Skeleton};
 
 use crate::mesh::{MaterialId, Mesh, Shape};
 
-use super::bones::bone_mesh;
+use super::bones::{MOST_BODY_JOINTS, bone_mesh};
 use super::fitter::{Fitter, Mannequin, SEGMENTS};
 use super::limbs::{add_arms, add_legs, has_fingers};
 use super::links::links;
 use super::proportions::Proportions;
 use super::trunk::add_trunk;
 
-/// A body for a skeleton of the given proportions.
+/// A body for a skeleton of the given proportions; of more than [`MOST_BODY_JOINTS`] joints its bones.
 ///
 /// # Panics
 /// If the proportions are another skeleton's.
 #[must_use]
 pub fn body_mesh(skeleton: &Skeleton, proportions: &Proportions) -> Mesh {
+    if skeleton.joint_count() > MOST_BODY_JOINTS {
+        return bone_mesh(skeleton, proportions);
+    }
     match &proportions.anatomy {
         Ok(anatomy) => match anatomy.axes(&proportions.reference) {
             Some(axes) => humanoid(

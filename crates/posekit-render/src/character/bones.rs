@@ -11,6 +11,21 @@ use crate::mesh::{ContactBall, MaterialId, Mesh, Shape};
 /// Slices of round bones.
 const SEGMENTS: usize = 14;
 
+/// More joints than this are drawn as bones: a body has hundreds of corners for each, and nobody has so many.
+pub const MOST_BODY_JOINTS: usize = 2000;
+
+/// Slices where there are more joints than a body has: thousands of them are too small to be seen as round, and their
+/// corners would fill the memory.
+const COARSE_SEGMENTS: usize = 5;
+
+/// How many slices round parts have, `usual` ones unless there are very many joints.
+fn segments(skeleton: &Skeleton, usual: usize) -> usize {
+    match skeleton.joint_count() > MOST_BODY_JOINTS {
+        true => COARSE_SEGMENTS,
+        false => usual,
+    }
+}
+
 /// A mesh of tapered round bones with a ball at every joint.
 ///
 /// # Panics
@@ -19,6 +34,7 @@ const SEGMENTS: usize = 14;
 pub fn bone_mesh(skeleton: &Skeleton, proportions: &Proportions) -> Mesh {
     let translations = proportions.bones(skeleton);
     let scale = proportions.stature;
+    let segments = segments(skeleton, SEGMENTS);
     let mut mesh = Mesh::default();
     let least = scale * 0.0045;
     let ball_of = |length: f32| (length * 0.085).clamp(least, scale * 0.016);
@@ -34,7 +50,7 @@ pub fn bone_mesh(skeleton: &Skeleton, proportions: &Proportions) -> Mesh {
         let radius = ball_of(longest.max(own * 0.6));
         if own > scale * 1e-3 || longest > scale * 1e-3 {
             mesh.add(
-                &Shape::ball(Vec3::ZERO, radius, SEGMENTS),
+                &Shape::ball(Vec3::ZERO, radius, segments),
                 index,
                 MaterialId::Accent,
             );
@@ -49,12 +65,12 @@ pub fn bone_mesh(skeleton: &Skeleton, proportions: &Proportions) -> Mesh {
             let thick = ball_of(length) * 0.95;
             let waist = end * 0.16;
             mesh.add(
-                &Shape::tapered_capsule(waist, thick, end, thick * 0.38, SEGMENTS),
+                &Shape::tapered_capsule(waist, thick, end, thick * 0.38, segments),
                 index,
                 MaterialId::Base,
             );
             mesh.add(
-                &Shape::tapered_capsule(Vec3::ZERO, thick * 0.45, waist, thick, SEGMENTS),
+                &Shape::tapered_capsule(Vec3::ZERO, thick * 0.45, waist, thick, segments),
                 index,
                 MaterialId::Base,
             );
@@ -81,6 +97,7 @@ pub(super) fn add_contact(mesh: &mut Mesh, joint: usize, center: Vec3, radius: f
 pub fn octahedron_mesh(skeleton: &Skeleton, proportions: &Proportions) -> Mesh {
     let translations = proportions.bones(skeleton);
     let scale = proportions.stature;
+    let segments = segments(skeleton, SEGMENTS);
     let mut mesh = Mesh::default();
     for joint in skeleton
         .joints()
@@ -109,7 +126,7 @@ pub fn octahedron_mesh(skeleton: &Skeleton, proportions: &Proportions) -> Mesh {
             radius = radius.max(half_width * 0.42);
         }
         mesh.add(
-            &Shape::ball(Vec3::ZERO, radius, SEGMENTS),
+            &Shape::ball(Vec3::ZERO, radius, segments),
             index,
             MaterialId::Accent,
         );
@@ -126,6 +143,7 @@ pub fn octahedron_mesh(skeleton: &Skeleton, proportions: &Proportions) -> Mesh {
 pub fn axes_mesh(skeleton: &Skeleton, proportions: &Proportions) -> Mesh {
     let translations = proportions.bones(skeleton);
     let scale = proportions.stature;
+    let segments = segments(skeleton, 8);
     let axes = [
         (Vec3::X, MaterialId::AxisX),
         (Vec3::Y, MaterialId::AxisY),
@@ -141,7 +159,8 @@ pub fn axes_mesh(skeleton: &Skeleton, proportions: &Proportions) -> Mesh {
         let length = (longest * 0.4).clamp(scale * 0.03, scale * 0.075);
         let radius = scale * 0.0032;
         for (axis, material) in axes {
-            let shape = Shape::tapered_capsule(Vec3::ZERO, radius, axis * length, radius * 0.5, 8);
+            let shape =
+                Shape::tapered_capsule(Vec3::ZERO, radius, axis * length, radius * 0.5, segments);
             mesh.add(&shape, joint.index(), material);
         }
     }

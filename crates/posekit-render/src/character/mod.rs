@@ -11,5 +11,5 @@ mod reference;
 mod trunk;
 
 pub use body::body_mesh;
-pub use bones::{axes_mesh, bone_mesh, octahedron_mesh};
+pub use bones::{MOST_BODY_JOINTS, axes_mesh, bone_mesh, octahedron_mesh};
 pub use proportions::Proportions;

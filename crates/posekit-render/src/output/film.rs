@@ -30,7 +30,7 @@ pub enum FilmError {
     #[error("a film needs at least one frame")]
     NoFrames,
     /// The format cannot have this size.
-    #[error("{width}x{height} is no size for this format: {expected}")]
+    #[error("{width}x{height} is not a size that this format can have: {expected}")]
     Size {
         /// Width asked for.
         width: u32,
@@ -40,7 +40,7 @@ pub enum FilmError {
         expected: &'static str,
     },
     /// The frame rate is not positive and finite, or the format cannot have it.
-    #[error("{frames_per_sec} frames a second is no frame rate for this format")]
+    #[error("{frames_per_sec} frames a second is not a frame rate that this format can have")]
     FrameRate {
         /// Frames a second asked for.
         frames_per_sec: f64,

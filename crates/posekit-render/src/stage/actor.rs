@@ -9,7 +9,9 @@ use posekit::motion::Motion;
 use posekit::pose::{GlobalPose, LocalPose, forward_kinematics};
 use posekit::skeleton::JointId;
 
-use crate::character::{Proportions, axes_mesh, body_mesh, bone_mesh, octahedron_mesh};
+use crate::character::{
+    MOST_BODY_JOINTS, Proportions, axes_mesh, body_mesh, bone_mesh, octahedron_mesh,
+};
 use crate::mesh::Mesh;
 use crate::theme::CharacterColors;
 
@@ -181,6 +183,14 @@ impl Actor {
     #[must_use]
     pub fn doubt(&self) -> Option<NoAnatomy> {
         self.doubt.filter(|_| self.style == SkeletonStyle::Body)
+    }
+
+    /// Whether its joints are drawn as bones, although a body was asked for, because there are more than
+    /// [`MOST_BODY_JOINTS`].
+    #[must_use]
+    pub fn has_too_many_joints(&self) -> bool {
+        let joints = self.motion.skeleton().joint_count();
+        self.style == SkeletonStyle::Body && joints > MOST_BODY_JOINTS
     }
 
     /// Its colours.

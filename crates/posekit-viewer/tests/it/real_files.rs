@@ -4,21 +4,21 @@ use std::path::Path;
 
 use posekit_render::cpu::CpuRenderer;
 use posekit_viewer::load::read_clip;
-use posekit_viewer::state::library::motion_files;
 use posekit_viewer::state::readout::readout;
 use posekit_viewer::state::session::Session;
+
+/// The names of the real files: more may be put beside them.
+const REAL_FILES: &str = include_str!("../../../posekit-formats/tests/real_files.txt");
 
 #[test]
 fn every_real_file_is_shown_in_the_picture() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
-    let Ok(mut files) = motion_files(&folder) else {
+    if !folder.is_dir() {
         eprintln!("skipped: {} is missing", folder.display());
         return;
-    };
-    files.sort();
-    assert!(!files.is_empty());
+    }
     let mut renderer = CpuRenderer::new(std::num::NonZeroUsize::MIN);
-    for file in files {
+    for file in REAL_FILES.lines().map(|name| folder.join(name)) {
         let name = file.display().to_string();
         let bytes = std::fs::read(&file).expect("the file is readable");
         let clip = read_clip(&name, &bytes).expect("a real file opens");

@@ -63,7 +63,7 @@ finding_codes! {
     FrameTimeImplausible, "frame-time-implausible";
     /// The motion obeys gravity or the laws of walking only if it is played faster or slower.
     PlaybackSpeedImplausible, "playback-speed-implausible";
-    /// Values of the file are no numbers: `nan`, `inf` or beyond what a number can be.
+    /// Values of the file are not numbers: `nan`, `inf` or beyond what a number can be.
     NotFinite, "not-finite";
     /// The first frame is a reference pose that the motion does not continue.
     ReferenceFirstFrame, "reference-first-frame";

@@ -1,4 +1,4 @@
-//! Position channels that are no places: differences from the OFFSET, or nothing at all.
+//! Position channels that are not positions: differences from the OFFSET, or nothing at all.
 //!
 //! Read as places, the first put a figure under the floor or its joints beside their bones, and the second
 //! put every joint on its parent. Both make all other checks speak of a figure that nobody recorded, so
@@ -134,7 +134,7 @@ pub fn relative_positions(
     })
 }
 
-/// A group of joints whose channels are no places.
+/// A group of joints whose channels are not positions.
 struct Found {
     joints: Vec<JointId>,
     /// How they are to be read.
@@ -207,7 +207,7 @@ fn relative_bones(motion: &Motion) -> Option<Found> {
             policy: PositionPolicy::Add,
             distance: farthest(&bones),
             what: format!(
-                "the position channels of {} are differences from the OFFSET and no places",
+                "the position channels of {} are differences from the OFFSET, not positions",
                 names(skeleton, &joints)
             ),
             joints,

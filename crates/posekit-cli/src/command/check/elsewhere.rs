@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use crate::args::Global;
 use crate::batch::{self, Done, Outcome};
-use crate::console::{self, DIM, HEADING, styled};
+use crate::console::{self, DIM, HEADING, Reader, styled};
 use crate::failure::{Failure, one_line};
 use crate::inputs::{self, Input};
 use crate::load;
@@ -31,7 +31,7 @@ struct Reading {
 
 /// Runs the command with `--for`.
 pub(super) fn run(args: &CheckArgs, global: &Global) -> Result<(), Failure> {
-    let mut out = console::stdout();
+    let mut out = console::stdout_for(Reader::of_json(args.json));
     let mut wrong: Vec<String> = Vec::new();
     batch::run_telling(
         inputs::expand(&args.files),

@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 
 use crate::args::Global;
 use crate::batch::{self, Done, Outcome};
-use crate::console;
+use crate::console::{self, Reader};
 use crate::failure::Failure;
 use crate::inputs::{self, Input};
 use crate::load::{self, Subject};
@@ -124,7 +124,7 @@ pub(crate) fn run(args: &CheckArgs, global: &Global) -> Result<(), Failure> {
     if !args.programs.is_empty() {
         return elsewhere::run(args, global);
     }
-    let mut out = console::stdout();
+    let mut out = console::stdout_for(Reader::of_json(args.json));
     let mut denied = Vec::new();
     let mut total = Total::default();
     let inputs = inputs::expand(&args.files);

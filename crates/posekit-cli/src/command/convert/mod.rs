@@ -125,7 +125,7 @@ pub(crate) fn run(args: &ConvertArgs, global: &Global) -> Result<(), Failure> {
     }
     let inputs = inputs::expand(files);
     let is_set = inputs.is_set;
-    let plan = Plan::new(output, &inputs, "bvh")?;
+    let plan = Plan::new(output, &inputs, "bvh", &global.guard)?;
     let mut written_count = 0;
     let result = batch::run(
         inputs,
@@ -206,9 +206,9 @@ fn write(bvh: &Bvh, destination: &Destination) -> Result<String, Failure> {
     let frames = counted(bvh.frame_count(), "frame");
     let joints = counted(bvh.joints.len(), "joint");
     match destination {
-        Destination::File(path) => {
-            write_whole(path, |file| write_to(bvh, options, file))?;
-            Ok(format!("wrote {}: {frames} of {joints}", path.display()))
+        Destination::File(target) => {
+            write_whole(target, |file| write_to(bvh, options, file))?;
+            Ok(format!("wrote {}: {frames} of {joints}", target.display()))
         }
         Destination::Stdout => {
             let mut out = console::binary_stdout();

@@ -58,8 +58,10 @@ pub(super) fn format(
         return Err(Failure::usage("only .npz can be compressed"));
     }
     if output == STDIN && format == Format::Npz && console::stdout_is_terminal() {
-        return Err(Failure::usage("an .npz is no text to show on a terminal")
-            .try_next("name a file with -o, or add --format csv"));
+        return Err(
+            Failure::usage("an .npz cannot be shown as text on a terminal")
+                .try_next("name a file with -o, or add --format csv"),
+        );
     }
     let compression = if compress {
         Compression::Deflated
@@ -122,13 +124,13 @@ pub(super) fn write(
     destination: &Destination,
 ) -> Result<Written, Failure> {
     let path = match destination {
-        Destination::File(path) => {
-            write_whole(path, |file| match format.format {
+        Destination::File(target) => {
+            write_whole(target, |file| match format.format {
                 Format::Npz => npz::write(arrays, file, format.compression).map(drop),
                 Format::Csv => csv::write(arrays, file),
                 Format::Json => json::write(arrays, file),
             })?;
-            Some(path.clone())
+            Some(target.path().to_owned())
         }
         Destination::Stdout => {
             write_stdout(arrays, format)?;

@@ -22,6 +22,7 @@ use crate::load;
 use crate::output::Plan;
 use crate::positions::PositionsArgs;
 use crate::sample::Sample;
+use crate::scene_file::{Asked, Part};
 use crate::select::{self, FrameSelection, PointArg};
 use crate::text::counted;
 use export::Format;
@@ -119,7 +120,7 @@ fn run_export(
     global: &Global,
 ) -> Result<(), Failure> {
     let format = export::format(output, args.format, args.compress)?;
-    let plan = Plan::new(output, &inputs, format.extension())?;
+    let plan = Plan::new(output, &inputs, format.extension(), &global.guard)?;
     let is_set = inputs.is_set;
     let mut written_count = 0;
     let result = batch::run(
@@ -188,6 +189,8 @@ struct Selection {
     motion: GlobalMotion,
     joints: Vec<JointId>,
     frames: Vec<usize>,
+    /// The frames' numbers in the scene that these are a part of.
+    numbers: Option<Vec<usize>>,
     points: Vec<AttachedPoint>,
 }
 
@@ -197,6 +200,7 @@ impl Selection {
             motion: &self.motion,
             joints: &self.joints,
             frames: &self.frames,
+            numbers: self.numbers.as_deref(),
             points: &self.points,
         }
     }
@@ -209,23 +213,30 @@ fn select_from(
     global: &Global,
 ) -> Result<(Selection, Vec<String>, Vec<String>), Failure> {
     let name = input.name();
-    let loaded = load::load(input, global)?;
+    let asked = match args.rest {
+        true => Asked::Nothing,
+        false => args.frames.as_ref().map_or(Asked::All, Asked::Frames),
+    };
+    let (loaded, part) = load::load_part(input, asked, global)?;
     let warnings = loaded.repairs(input);
     let motion = loaded
         .motion(args.positions.policies())
         .map_err(|failure| failure.in_file(&name))?;
     // A long file's channel values would double the memory that forward kinematics takes.
     drop(loaded);
+    let frame_count = part
+        .as_ref()
+        .map_or(motion.frame_count(), |part| part.frame_count);
     let past_the_end = args
         .frames
         .as_ref()
-        .and_then(|frames| frames.past_the_end(motion.frame_count()));
+        .and_then(|frames| frames.past_the_end(frame_count));
     let notes = past_the_end.map(|note| format!("{name}: {note}"));
-    let selection = select(args, motion).map_err(|failure| failure.in_file(&name))?;
+    let selection = select(args, motion, part).map_err(|failure| failure.in_file(&name))?;
     Ok((selection, warnings, notes.into_iter().collect()))
 }
 
-fn select(args: &FkArgs, motion: Motion) -> Result<Selection, Failure> {
+fn select(args: &FkArgs, motion: Motion, part: Option<Part>) -> Result<Selection, Failure> {
     let skeleton = Arc::clone(motion.skeleton());
     let joints = select::joints(&skeleton, &args.joints)?;
     let points: Vec<AttachedPoint> = args
@@ -241,7 +252,9 @@ fn select(args: &FkArgs, motion: Motion) -> Result<Selection, Failure> {
     if motion.frame_count() == 0 {
         return Err(Failure::new("has no frames").try_next("--rest gives its rest pose"));
     }
+    let numbers = part.map(|part| part.numbers).filter(|_| !args.rest);
     let frames = match &args.frames {
+        _ if numbers.is_some() => (0..motion.frame_count()).collect(),
         Some(selection) => selection.frames(motion.frame_count())?,
         None => (0..motion.frame_count()).collect(),
     };
@@ -249,6 +262,7 @@ fn select(args: &FkArgs, motion: Motion) -> Result<Selection, Failure> {
         motion: motion.to_global(),
         joints,
         frames,
+        numbers,
         points,
     })
 }

@@ -37,8 +37,9 @@ impl JointTravel {
         };
         // By frames, not by seconds: a division for each step would cost as much as all else.
         let mut farthest_in_a_frame = f64::NEG_INFINITY;
-        for pair in arrays.frames.windows(2) {
-            let place = position(pair[1]);
+        let frames = arrays.frames.iter().skip(1);
+        for (pair, &frame) in arrays.numbers().windows(2).zip(frames) {
+            let place = position(frame);
             let distance = f64::from(place.distance(travel.last));
             travel.last = place;
             travel.low = travel.low.min(place);

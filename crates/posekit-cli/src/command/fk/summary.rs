@@ -46,7 +46,8 @@ impl Summary {
             });
             (name, first, last)
         });
-        let duration_secs = ends.map_or(0.0, |(&first, &last)| {
+        let numbers = arrays.numbers().first().zip(arrays.numbers().last());
+        let duration_secs = numbers.map_or(0.0, |(&first, &last)| {
             arrays.time_secs(last) - arrays.time_secs(first)
         });
         Self {

@@ -11,11 +11,9 @@
 //! }
 //! ```
 //!
-//! Angles are degrees, distances in the motion's unit; an end of a range that is `null` is no limit. Names may
+//! Angles are degrees, distances in the motion's unit; an end of a range that is `null` means no limit. Names may
 //! be patterns; an entry for a name counts over one for a pattern.
 
-use std::fs;
-use std::path::Path;
 use std::str::FromStr;
 
 use glam::DVec3;
@@ -29,6 +27,8 @@ use serde_json::{Map, Value};
 
 use super::IkArgs;
 use super::figure::Figure;
+use crate::args::Global;
+use crate::bytes;
 use crate::failure::Failure;
 use crate::select;
 
@@ -56,7 +56,11 @@ impl FromStr for Stiffness {
 }
 
 /// The limits of a figure: what its channels cannot do, then what the user says.
-pub(super) fn limits(args: &IkArgs, figure: &Figure) -> Result<JointLimits, Failure> {
+pub(super) fn limits(
+    args: &IkArgs,
+    figure: &Figure,
+    global: &Global,
+) -> Result<JointLimits, Failure> {
     let mut limits = JointLimits::default();
     for (index, joint) in figure.bvh.joints.iter().enumerate() {
         if !joint.is_end_site {
@@ -71,7 +75,8 @@ pub(super) fn limits(args: &IkArgs, figure: &Figure) -> Result<JointLimits, Fail
     }
     if let Some(path) = &args.limits {
         let name = path.display().to_string();
-        read(path, &figure.skeleton, &mut limits).map_err(|failure| failure.in_file(&name))?;
+        let bytes = bytes::of_file(path, &global.guard)?;
+        read(&bytes, &figure.skeleton, &mut limits).map_err(|failure| failure.in_file(&name))?;
     }
     for stiffness in &args.stiffness {
         let wanted = [stiffness.joints.clone()];
@@ -133,12 +138,8 @@ fn set_stiffness(limits: &mut JointLimits, joint: JointId, share: f64) -> Result
         .map_err(|error| Failure::new(error.to_string()))
 }
 
-fn read(path: &Path, skeleton: &Skeleton, limits: &mut JointLimits) -> Result<(), Failure> {
-    let bytes = match fs::read(path) {
-        Ok(bytes) => bytes,
-        Err(error) => return Err(Failure::cannot_read(path, &error)),
-    };
-    let value: Value = serde_json::from_slice(&bytes).map_err(|error| {
+fn read(bytes: &[u8], skeleton: &Skeleton, limits: &mut JointLimits) -> Result<(), Failure> {
+    let value: Value = serde_json::from_slice(bytes).map_err(|error| {
         let text = error.to_string();
         let what = text.split(" at line").next().unwrap_or(&text).to_owned();
         Failure::new(format!("{}:{}: {what}", error.line(), error.column()))
@@ -193,7 +194,7 @@ fn apply(
             "fixed" if *value == Value::Bool(true) => JointLimit::Fixed,
             "free" if *value == Value::Bool(true) => JointLimit::Free,
             _ => {
-                return Err(Failure::new(format!("'{kind}' is no limit")).try_next(
+                return Err(Failure::new(format!("'{kind}' is not a limit")).try_next(
                     "limits are hinge, cone, euler, slide, fixed and free, and stiffness",
                 ));
             }

@@ -23,7 +23,7 @@ use crate::extension;
 use crate::failure::Failure;
 use crate::inputs::{self, Input};
 use crate::load;
-use crate::output::{Destination, Plan, write_whole};
+use crate::output::{Destination, Plan, Target, write_whole};
 use crate::positions::PositionsArgs;
 use crate::select::{FrameSelection, PointArg};
 use crate::text::counted;
@@ -41,7 +41,7 @@ use solver::SolverArgs;
 /// down an arm: its start stays where it is and the root moves.
 ///
 /// The output differs from the input only where the chains moved; every other number keeps its digits.
-/// Missing a target is no error: the summary says by how much and why. Lengths are in the file's unit,
+/// Missing a target is not an error: the summary says by how much and why. Lengths are in the file's unit,
 /// angles in degrees.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
@@ -128,7 +128,7 @@ pub(crate) fn run(args: &IkArgs, global: &Global) -> Result<(), Failure> {
     let plan = args
         .output
         .as_ref()
-        .map(|output| Plan::new(output, &inputs, "bvh"))
+        .map(|output| Plan::new(output, &inputs, "bvh", &global.guard))
         .transpose()?;
     if args.json
         && args
@@ -140,11 +140,11 @@ pub(crate) fn run(args: &IkArgs, global: &Global) -> Result<(), Failure> {
             "the new file and --json cannot both go to standard output",
         ));
     }
-    let trace_format = args
-        .trace
-        .as_deref()
-        .map(trace::Format::of_path)
-        .transpose()?;
+    let trace = args.trace.as_deref().map(|path| {
+        let format = trace::Format::of_path(path)?;
+        Ok::<_, Failure>((format, global.guard.target(path, "the trace")?))
+    });
+    let trace = trace.transpose()?;
     let Some(input) = inputs.list.first() else {
         let mut failures = inputs.failures;
         let (name, failure) = failures.pop().unwrap_or_else(|| {
@@ -153,7 +153,7 @@ pub(crate) fn run(args: &IkArgs, global: &Global) -> Result<(), Failure> {
         });
         return tell(args, &name, Err(failure));
     };
-    let result = work(args, input, plan.as_ref(), trace_format, global);
+    let result = work(args, input, plan.as_ref(), trace.as_ref(), global);
     tell(args, &input.name(), result)
 }
 
@@ -162,7 +162,7 @@ fn tell(args: &IkArgs, name: &str, result: Result<(), Failure>) -> Result<(), Fa
     if let Err(failure @ (Failure::CouldNot(_) | Failure::Usage(_))) = &result
         && args.json
     {
-        let mut out = console::stdout();
+        let mut out = console::binary_stdout();
         out.write_all(failure.json_line(name).as_bytes())?;
         out.flush()?;
     }
@@ -173,7 +173,7 @@ fn work(
     args: &IkArgs,
     input: &Input,
     plan: Option<&Plan>,
-    trace_format: Option<trace::Format>,
+    trace: Option<&(trace::Format, Target)>,
     global: &Global,
 ) -> Result<(), Failure> {
     let name = input.name();
@@ -188,25 +188,25 @@ fn work(
     let mut figure = Figure::new(args, loaded).map_err(in_file)?;
     let goals = args.goals.attach(&figure, global).map_err(in_file)?;
     let mut notes = Vec::new();
-    let task = steps::Task::new(args, &figure, goals, &mut notes).map_err(in_file)?;
+    let task = steps::Task::new(args, &figure, goals, &mut notes, global).map_err(in_file)?;
     if !global.quiet {
         notes.iter().for_each(|note| console::note(note));
     }
     let results = task.run(&mut figure, global).map_err(in_file)?;
-    if let (Some(format), Some(path)) = (trace_format, &args.trace) {
+    if let Some((format, target)) = trace {
         let names = &figure.skeleton;
-        write_whole(path, |file| {
-            trace::write(format, names, &task, &results, file)
+        write_whole(target, |file| {
+            trace::write(*format, names, &task, &results, file)
         })?;
     }
     let mut announcement = None;
     match plan.map(|plan| plan.destination(0)) {
-        Some(Destination::File(path)) => {
-            write_whole(path, |file| {
+        Some(Destination::File(target)) => {
+            write_whole(target, |file| {
                 write_to(&figure.bvh, WriteOptions::default(), file)
             })?;
             let changed = counted(figure.changed_count(), "value");
-            announcement = Some(format!("wrote {}: {changed} changed", path.display()));
+            announcement = Some(format!("wrote {}: {changed} changed", target.display()));
         }
         Some(Destination::Stdout) => {
             let mut out = console::binary_stdout();
@@ -220,7 +220,7 @@ fn work(
         Some(Destination::Stdout)
     );
     if args.json {
-        let mut out = console::stdout();
+        let mut out = console::binary_stdout();
         writeln!(out, "{}", summary::json(&name, &figure, &task, &results))?;
         out.flush()?;
     } else if !writes_stdout && !global.quiet {

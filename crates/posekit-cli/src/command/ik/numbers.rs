@@ -59,7 +59,7 @@ impl FromStr for Orientation {
                 if rotation.length() > 1e-6 {
                     Ok(Self::Fixed(rotation.normalize()))
                 } else {
-                    Err("a quaternion of length zero is no orientation".to_owned())
+                    Err("a quaternion of length zero is not an orientation".to_owned())
                 }
             }
             _ => Err(

@@ -1,6 +1,5 @@
 //! Where an effector should be, frame by frame.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use glam::{DQuat, DVec3};
@@ -12,9 +11,11 @@ use super::figure::Figure;
 use super::goals::find;
 use super::numbers::list;
 use crate::args::Global;
+use crate::bytes;
 use crate::failure::Failure;
 use crate::inputs;
 use crate::load;
+use crate::output::Guard;
 
 /// A place as it was given.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,7 +67,7 @@ impl Place {
             None => Ok(Self::Offset(DVec3::ZERO)),
             Some(PlaceArg::World(at)) => Ok(Self::World(*at)),
             Some(PlaceArg::Offset(by)) => Ok(Self::Offset(*by)),
-            Some(PlaceArg::Path(path)) => read_path(path).map(Self::Path),
+            Some(PlaceArg::Path(path)) => read_path(path, &global.guard).map(Self::Path),
             Some(PlaceArg::Follow { file: None, joint }) => {
                 let joint = find(&figure.skeleton, joint)?;
                 Ok(Self::Follow(Box::new(figure.motion.to_global()), joint))
@@ -161,9 +162,9 @@ fn along(points: &[(f64, DVec3)], frame: f64) -> DVec3 {
 
 /// Reads lines of `x,y,z`, one a frame from 0, or `frame,x,y,z`. A first line of words is a heading;
 /// empty lines and those that start with # are skipped.
-fn read_path(path: &Path) -> Result<Vec<(f64, DVec3)>, Failure> {
+fn read_path(path: &Path, guard: &Guard) -> Result<Vec<(f64, DVec3)>, Failure> {
     let name = path.display();
-    let bytes = fs::read(path).map_err(|error| Failure::cannot_read(path, &error))?;
+    let bytes = bytes::of_file(path, guard)?;
     let text = String::from_utf8_lossy(&bytes);
     let mut points: Vec<(f64, DVec3)> = Vec::new();
     let mut is_first = true;

@@ -65,6 +65,7 @@ impl Task {
         figure: &Figure,
         goals: Vec<Goal>,
         notes: &mut Vec<String>,
+        global: &Global,
     ) -> Result<Self, Failure> {
         let skeleton = &*figure.skeleton;
         let solver_name = args.solver.solver;
@@ -76,7 +77,7 @@ impl Task {
         }
         let mut problem = IkProblem::new(setup.base, setup.movable(), Vec::new(), setup.reach);
         problem.stop = args.solver.stop_rule(setup.reach)?;
-        problem.limits = Arc::new(limits::limits(args, figure)?);
+        problem.limits = Arc::new(limits::limits(args, figure, global)?);
         if let Some(strength) = args.pull {
             if !(0.0..=1.0).contains(&strength) {
                 return Err(Failure::usage("--pull is a share from 0 to 1"));

@@ -22,20 +22,17 @@ mod table_files;
 mod targets;
 
 use std::io::Write;
-use std::path::Path;
 
 use crate::args::Global;
 use crate::console;
 use crate::failure::Failure;
 use crate::jobs;
-use crate::output::write_whole;
+use crate::output::{Target, write_whole};
 use crate::text::grouped;
 pub(crate) use args::IkStudyArgs;
 
 /// Runs the command.
 pub(crate) fn run(args: &IkStudyArgs, global: &Global) -> Result<(), Failure> {
-    let study = setup::study(args, global)?;
-    let beside = |extension: &str| args.output.with_extension(extension);
     let is_html = args
         .output
         .extension()
@@ -44,7 +41,15 @@ pub(crate) fn run(args: &IkStudyArgs, global: &Global) -> Result<(), Failure> {
         return Err(Failure::usage("the report's name ends in .html")
             .try_next("its .csv, .md and .bvh go beside it"));
     }
-    refuse_input(args, &beside("bvh"))?;
+    let beside = |extension: &str, of: &str| {
+        let path = args.output.with_extension(extension);
+        global.guard.target(&path, of)
+    };
+    let page = global.guard.target(&args.output, "the report")?;
+    let numbers_file = beside("csv", "the report's numbers")?;
+    let poses_file = beside("bvh", "the report's poses")?;
+    let text_file = beside("md", "the report's text")?;
+    let study = setup::study(args, global)?;
     let workers = global.jobs.unwrap_or_else(jobs::default_workers);
     let results = experiment::run(&study, workers, global.quiet)?;
     let following = moving::run(&study);
@@ -55,32 +60,17 @@ pub(crate) fn run(args: &IkStudyArgs, global: &Global) -> Result<(), Failure> {
     };
     let document = report::compose(numbers, &command_line());
     let pictures = pictures::take(&study, &document.shots, workers, global.quiet)?;
-    let write = |path: &Path, bytes: &[u8]| write_whole(path, |file| file.write_all(bytes));
-    write(
-        &beside("csv"),
-        table_files::csv(&study, &results).as_bytes(),
-    )?;
-    write(&beside("bvh"), &table_files::poses(&study, &results))?;
-    write(&beside("md"), markdown::write(&document).as_bytes())?;
-    write(&args.output, html::write(&document, &pictures).as_bytes())?;
+    let write = |target: &Target, bytes: &[u8]| write_whole(target, |file| file.write_all(bytes));
+    write(&numbers_file, table_files::csv(&study, &results).as_bytes())?;
+    write(&poses_file, &table_files::poses(&study, &results))?;
+    write(&text_file, markdown::write(&document).as_bytes())?;
+    write(&page, html::write(&document, &pictures).as_bytes())?;
     if !global.quiet {
         let runs = grouped(results.all().len());
         console::note(&format!(
             "wrote {}: {runs} runs of solvers; with .csv, .md and .bvh beside it",
             args.output.display()
         ));
-    }
-    Ok(())
-}
-
-/// The poses must not be written over the motion that they are made from.
-fn refuse_input(args: &IkStudyArgs, poses: &Path) -> Result<(), Failure> {
-    let same = |path: &Path| path.canonicalize().ok();
-    if same(poses).is_some_and(|poses| same(Path::new(&args.file)) == Some(poses)) {
-        return Err(
-            Failure::usage(format!("{} would be overwritten", poses.display()))
-                .try_next("give the report another name with -o"),
-        );
     }
     Ok(())
 }

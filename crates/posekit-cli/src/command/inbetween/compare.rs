@@ -6,7 +6,7 @@ use posekit::inbetween::{FillError, FillMethod, FillPlan};
 use posekit::motion::Motion;
 
 use crate::console;
-use crate::failure::Failure;
+use crate::failure::{Failure, one_line};
 use crate::text::{Align, Table, counted, fixed};
 
 /// What each method makes of the frames that were not kept.
@@ -100,7 +100,7 @@ impl Comparison {
     /// Prints the table of methods.
     pub(super) fn print(&self) -> Result<(), Failure> {
         let mut out = console::stdout();
-        writeln!(out, "{}: {}", self.name, self.summary())?;
+        writeln!(out, "{}: {}", one_line(&self.name), self.summary())?;
         let (heads, rows) = self.table();
         let columns: Vec<(&str, Align)> = heads
             .into_iter()

@@ -18,7 +18,7 @@ use crate::args::Global;
 use crate::console;
 use crate::extension;
 use crate::failure::Failure;
-use crate::inputs::{self, Input, Inputs};
+use crate::inputs::{self, Input};
 use crate::load;
 use crate::output::{Destination, Plan, write_whole};
 use crate::positions::PositionsArgs;
@@ -91,13 +91,23 @@ pub(crate) fn run(args: &InbetweenArgs, global: &Global) -> Result<(), Failure> 
     if let Some(output) = &args.output {
         extension::refuse_other(output, &["bvh"], extension::REDIRECT)?;
     }
-    let inputs = inputs::expand(std::slice::from_ref(&args.file));
-    if let Some((_, failure)) = inputs.failures.into_iter().next() {
+    let mut inputs = inputs::expand(std::slice::from_ref(&args.file));
+    if let Some((_, failure)) = inputs.failures.pop() {
         return Err(failure);
     }
     let [input] = inputs.list.as_slice() else {
         return Err(Failure::usage("one motion at a time is filled in"));
     };
+    let output = args
+        .output
+        .as_ref()
+        .map(|output| Plan::new(output, &inputs, "bvh", &global.guard))
+        .transpose()?;
+    let report = args
+        .report
+        .as_ref()
+        .map(|stem| report::targets(&report_stem(stem, input), &global.guard))
+        .transpose()?;
     let name = input.name();
     let in_file = |failure: Failure| failure.in_file(&name);
     let loaded = load::load(input, global)?;
@@ -111,17 +121,16 @@ pub(crate) fn run(args: &InbetweenArgs, global: &Global) -> Result<(), Failure> 
     let motion = loaded.motion(args.positions.policies()).map_err(in_file)?;
     let plan = plan(args, &motion, global).map_err(in_file)?;
     let filled = |method: FillMethod| fill(&motion, &plan, |joint| method.of(joint, &orders));
-    if let Some(output) = &args.output {
+    if let Some(output) = &output {
         let method = args.method[0];
         write_motion(
-            output,
-            input,
+            output.destination(0),
             &filled(method),
             method,
             args.method.len(),
             global,
         )?;
-        if args.report.is_none() {
+        if report.is_none() {
             return Ok(());
         }
     }
@@ -130,8 +139,8 @@ pub(crate) fn run(args: &InbetweenArgs, global: &Global) -> Result<(), Failure> 
     }
     let comparison = Comparison::new(&motion, &plan, &args.method, name, filled);
     comparison.print()?;
-    match &args.report {
-        Some(stem) => report::write(&comparison, &report_stem(stem, input), global),
+    match &report {
+        Some(targets) => report::write(&comparison, targets, global),
         None => Ok(()),
     }
 }
@@ -160,27 +169,22 @@ fn plan(args: &InbetweenArgs, motion: &Motion, global: &Global) -> Result<FillPl
 }
 
 fn write_motion(
-    output: &OsString,
-    input: &Input,
+    destination: &Destination,
     motion: &Motion,
     method: FillMethod,
     method_count: usize,
     global: &Global,
 ) -> Result<(), Failure> {
-    let inputs = Inputs {
-        list: vec![input.clone()],
-        ..Inputs::default()
-    };
     let bvh = Bvh::from_motion(motion, EulerOrder::ZXY);
     let options = WriteOptions::default();
-    match Plan::new(output, &inputs, "bvh")?.destination(0) {
+    match destination {
         Destination::Stdout => {
             let mut out = console::binary_stdout();
             write_to(&bvh, options, &mut out)?;
             Ok(std::io::Write::flush(&mut out)?)
         }
-        Destination::File(path) => {
-            write_whole(path, |file| write_to(&bvh, options, file))?;
+        Destination::File(target) => {
+            write_whole(target, |file| write_to(&bvh, options, file))?;
             if !global.quiet {
                 let frames = counted(bvh.frame_count(), "frame");
                 let which = if method_count > 1 {
@@ -188,7 +192,7 @@ fn write_motion(
                 } else {
                     format!(" filled in by {method}")
                 };
-                console::note(&format!("wrote {}: {frames}{which}", path.display()));
+                console::note(&format!("wrote {}: {frames}{which}", target.display()));
             }
             Ok(())
         }

@@ -9,21 +9,37 @@ use super::html;
 use crate::args::Global;
 use crate::console;
 use crate::failure::Failure;
-use crate::output::write_whole;
+use crate::output::{Guard, Target, write_whole};
 use crate::text::fixed;
 
-/// Writes `STEM.html`, `STEM.md` and `STEM.csv`.
-pub(super) fn write(comparison: &Comparison, stem: &Path, global: &Global) -> Result<(), Failure> {
-    let files = [
-        ("html", html::page(comparison)),
-        ("md", markdown(comparison)),
-        ("csv", csv(comparison)),
+/// Where the report's files go: `STEM.html`, `STEM.md` and `STEM.csv`.
+pub(super) fn targets(stem: &Path, guard: &Guard) -> Result<[Target; 3], Failure> {
+    let target = |extension: &str, what: &str| {
+        let what = format!("the report's {what}");
+        guard.target(&with_extension(stem, extension), &what)
+    };
+    Ok([
+        target("html", "page")?,
+        target("md", "text")?,
+        target("csv", "table")?,
+    ])
+}
+
+/// Writes the report's files.
+pub(super) fn write(
+    comparison: &Comparison,
+    targets: &[Target; 3],
+    global: &Global,
+) -> Result<(), Failure> {
+    let texts = [
+        html::page(comparison),
+        markdown(comparison),
+        csv(comparison),
     ];
-    for (extension, text) in files {
-        let path = with_extension(stem, extension);
-        write_whole(&path, |file| file.write_all(text.as_bytes()))?;
+    for (target, text) in targets.iter().zip(texts) {
+        write_whole(target, |file| file.write_all(text.as_bytes()))?;
         if !global.quiet {
-            console::note(&format!("wrote {}", path.display()));
+            console::note(&format!("wrote {}", target.display()));
         }
     }
     Ok(())

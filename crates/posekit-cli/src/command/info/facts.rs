@@ -42,7 +42,7 @@ pub(super) struct Facts {
     pub(super) channel_count: usize,
     /// The channel lists that occur, by their first joint.
     pub(super) channel_groups: Vec<ChannelGroup>,
-    /// What position channels mean where they are no places; the height in motion is of the figure that they
+    /// What position channels mean where they are not positions; the height in motion is of the figure that they
     /// make then.
     pub(super) relative_positions: Option<RelativePositions>,
     /// The rest pose's height; see [`Skeleton::height`].

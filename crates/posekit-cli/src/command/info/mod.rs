@@ -13,7 +13,7 @@ use clap::Args;
 
 use crate::args::Global;
 use crate::batch::{self, Done, Outcome};
-use crate::console;
+use crate::console::{self, Reader};
 use crate::failure::Failure;
 use crate::inputs;
 use crate::load::{self, Loaded, Subject};
@@ -52,7 +52,7 @@ Examples:
 
 /// Runs the command.
 pub(crate) fn run(args: &InfoArgs, global: &Global) -> Result<(), Failure> {
-    let mut out = console::stdout();
+    let mut out = console::stdout_for(Reader::of_json(args.json));
     let flush_each = console::stdout_is_terminal();
     let mut is_first = true;
     batch::run_telling(

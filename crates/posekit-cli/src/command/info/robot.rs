@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use super::json::notice_object;
 use super::readable::{line, notice_text};
-use super::tree::branches;
+use super::tree::Branches;
 use crate::console::{DIM, HEADING, styled};
 use crate::failure::one_line;
 use crate::text::{counted, fixed, trimmed, width};
@@ -196,6 +196,7 @@ fn tree(urdf: &Urdf, robot: &Mechanism) -> String {
     let links = urdf.links_from_root();
     let order = urdf.joints_from_root();
     let skeleton = robot.skeleton();
+    let branches = Branches::new(skeleton);
     let rows: Vec<(String, String, String)> = skeleton
         .roots()
         .flat_map(|root| skeleton.subtree(root))
@@ -207,7 +208,7 @@ fn tree(urdf: &Urdf, robot: &Mechanism) -> String {
                 let kind = joint.kind.name();
                 format!("{}  {kind} {}", xyz.join(" "), one_line(&joint.name))
             });
-            (branches(skeleton, id), label, detail)
+            (branches.to(id), label, detail)
         })
         .collect();
     let size = |row: &(String, String, String)| width(&row.0) + width(&row.1);
@@ -220,5 +221,5 @@ fn tree(urdf: &Urdf, robot: &Mechanism) -> String {
         text.push_str(&styled(DIM, &row.2));
         text.push('\n');
     }
-    text
+    text + &branches.remark()
 }

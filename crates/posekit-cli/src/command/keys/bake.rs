@@ -1,13 +1,16 @@
 //! `posekit keys bake`: keys as a motion file.
 
 use std::ffi::OsString;
+use std::cell::Cell;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use posekit::motion::FrameTime;
 use posekit::rotation::EulerOrder;
-use posekit_formats::bvh::{Bvh, WriteOptions, write_to};
+use posekit_formats::bvh::{WriteOptions, write_motion_to};
 use posekit_formats::report::Import;
+use posekit_formats::scene::Shot;
 
 use crate::args::Global;
 use crate::console;
@@ -52,7 +55,7 @@ pub(super) fn run(args: &BakeArgs, global: &Global) -> Result<(), Failure> {
     extension::refuse_other(&args.output, &["bvh"], extension::REDIRECT)?;
     let frame_time = args.fps.map(FrameTime::of_rate).transpose();
     let frame_time = frame_time.map_err(|error| Failure::usage(format!("--fps: {error}")))?;
-    let scene = scene_file::read(&args.file)?;
+    let scene = scene_file::read(&args.file, &global.guard)?;
     if let Some(fps) = args.fps {
         let frames = (scene.range_secs[1] - scene.range_secs[0]) * fps;
         if frames > MOST_FRAMES {
@@ -64,15 +67,12 @@ pub(super) fn run(args: &BakeArgs, global: &Global) -> Result<(), Failure> {
     let Import {
         document: shot,
         report,
-    } = scene_file::shot(&args.file, &scene)?;
+    } = scene_file::shot(&args.file, &scene, &global.guard)?;
     let name = args.file.display().to_string();
     load::refuse_repairs(&name, &report, global)?;
     for warning in load::repair_lines(&name, &report.warnings) {
         console::warning(&warning);
     }
-    let motion = shot.bake(frame_time);
-    scene_file::refuse_too_far(&motion).map_err(|failure| failure.in_file(&name))?;
-    let bvh = Bvh::from_motion(&motion, args.order);
     let input = Input {
         source: Source::File(args.file.clone()),
         relative: file_name(&args.file),
@@ -81,20 +81,77 @@ pub(super) fn run(args: &BakeArgs, global: &Global) -> Result<(), Failure> {
         list: vec![input],
         ..Inputs::default()
     };
-    let options = WriteOptions::default();
-    match Plan::new(&args.output, &inputs, "bvh")?.destination(0) {
+    let baking = Baking {
+        shot: &shot,
+        frame_time,
+        order: args.order,
+        too_far: Cell::new(None),
+    };
+    let because = |failure: Failure| match baking.too_far.take() {
+        Some(too_far) => too_far.in_file(&name),
+        None => failure,
+    };
+    match Plan::new(&args.output, &inputs, "bvh", &global.guard)?.destination(0) {
         Destination::Stdout => {
             let mut out = console::binary_stdout();
-            write_to(&bvh, options, &mut out)?;
-            Ok(std::io::Write::flush(&mut out)?)
+            baking
+                .write(&mut out)
+                .and_then(|()| out.flush())
+                .map_err(|error| because(error.into()))
         }
-        Destination::File(path) => {
-            write_whole(path, |file| write_to(&bvh, options, file))?;
+        Destination::File(target) => {
+            write_whole(target, |file| baking.write(file)).map_err(because)?;
             if !global.quiet {
-                let frames = counted(bvh.frame_count(), "frame");
-                console::note(&format!("wrote {}: {frames}", path.display()));
+                let frames = counted(shot.frame_count(frame_time), "frame");
+                console::note(&format!("wrote {}: {frames}", target.display()));
             }
             Ok(())
+        }
+    }
+}
+
+/// How many joints are posed at once, one for each joint and frame: enough that their number does not show in the
+/// time, few enough that it does not show in the memory.
+const POSED_AT_ONCE: usize = 1 << 17;
+
+/// A scene on its way to a BVH file.
+struct Baking<'a> {
+    shot: &'a Shot,
+    frame_time: Option<FrameTime>,
+    order: EulerOrder,
+    /// Why the writing was given up, where the scene and not the file is the reason.
+    too_far: Cell<Option<Failure>>,
+}
+
+impl Baking<'_> {
+    /// Writes the frames, baked a piece at a time.
+    fn write(&self, out: &mut impl Write) -> io::Result<()> {
+        let Self {
+            shot, frame_time, ..
+        } = *self;
+        let frame_count = shot.frame_count(frame_time);
+        let at_once = (POSED_AT_ONCE / shot.skeleton().joint_count().max(1)).max(1);
+        let head = shot.bake_frames(frame_time, 0..0);
+        let pieces = (0..frame_count).step_by(at_once).map_while(|first| {
+            let end = (first + at_once).min(frame_count);
+            let piece = shot.bake_frames(frame_time, first..end);
+            match scene_file::refuse_too_far(&piece, |place| first + place) {
+                Ok(()) => Some(piece),
+                Err(failure) => {
+                    self.too_far.set(Some(failure));
+                    None
+                }
+            }
+        });
+        let options = WriteOptions::default();
+        write_motion_to(&head, frame_count, pieces, self.order, options, &mut *out)?;
+        let too_far = self.too_far.take();
+        let is_whole = too_far.is_none();
+        self.too_far.set(too_far);
+        if is_whole {
+            Ok(())
+        } else {
+            Err(io::Error::other("a joint is too far away"))
         }
     }
 }

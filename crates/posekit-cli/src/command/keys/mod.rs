@@ -38,6 +38,6 @@ pub(crate) fn run(args: &KeysArgs, global: &Global) -> Result<(), Failure> {
     match &args.what {
         What::Reduce(args) => reduce::run(args, global),
         What::Bake(args) => bake::run(args, global),
-        What::Print(args) => print::run(args),
+        What::Print(args) => print::run(args, global),
     }
 }

@@ -9,6 +9,7 @@ use glam::{DQuat, DVec3};
 use posekit::keyframe::{Extrapolation, Interpolation, KeyValue, Property, Track};
 use posekit_formats::scene::{JointValues, Scene};
 
+use crate::args::Global;
 use crate::console::{self, HEADING, styled};
 use crate::failure::Failure;
 use crate::scene_file;
@@ -31,10 +32,10 @@ Examples:
   posekit keys print walk.posekit.toml
   posekit keys print walk.posekit.toml --csv";
 
-pub(super) fn run(args: &PrintArgs) -> Result<(), Failure> {
-    let scene = scene_file::read(&args.file)?;
-    let mut out = console::stdout();
+pub(super) fn run(args: &PrintArgs, global: &Global) -> Result<(), Failure> {
+    let scene = scene_file::read(&args.file, &global.guard)?;
     if args.csv {
+        let mut out = console::binary_stdout();
         writeln!(out, "of,property,at_secs,curve,x,y,z,w")?;
         for row in rows(&scene) {
             for (time, curve, values) in &row.keys {
@@ -51,6 +52,7 @@ pub(super) fn run(args: &PrintArgs) -> Result<(), Failure> {
         }
         return Ok(out.flush()?);
     }
+    let mut out = console::stdout();
     let rows = rows(&scene);
     let keys = rows.iter().map(|row| row.keys.len()).sum();
     let [start, end] = scene.range_secs;

@@ -97,18 +97,18 @@ pub(super) fn run(args: &ReduceArgs, global: &Global) -> Result<(), Failure> {
         list: vec![input.clone()],
         ..inputs::Inputs::default()
     };
-    match Plan::new(&args.output, &one, EXTENSION)?.destination(0) {
+    match Plan::new(&args.output, &one, EXTENSION, &global.guard)?.destination(0) {
         Destination::Stdout => {
             let mut out = console::binary_stdout();
             write(&scene, &keys, args.euler, &motion, &mut out)?;
             Ok(out.flush()?)
         }
-        Destination::File(path) => {
-            write_whole(path, |file| write(&scene, &keys, args.euler, &motion, file))?;
+        Destination::File(target) => {
+            write_whole(target, |file| write(&scene, &keys, args.euler, &motion, file))?;
             if !global.quiet {
                 console::note(&format!(
                     "wrote {}: {} in quaternions{}, {} that a key at every frame would take; within {} degrees and {} % of the height",
-                    path.display(),
+                    target.display(),
                     counted(keys.key_count(), "key"),
                     args.euler
                         .map_or_else(String::new, |order| format!(" (written as {order} angles)")),

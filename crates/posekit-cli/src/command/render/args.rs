@@ -140,7 +140,7 @@ impl FromStr for Size {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let refused = || format!("'{text}' is no size; write it as 1280x720");
+        let refused = || format!("'{text}' is not a size; write it as 1280x720");
         let (width, height) = text.split_once(['x', 'X']).ok_or_else(refused)?;
         let side = |digits: &str| digits.parse::<u32>().map_err(|_not_a_number| refused());
         let (width, height) = (side(width)?, side(height)?);

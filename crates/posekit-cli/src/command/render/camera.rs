@@ -38,7 +38,7 @@ impl FromStr for ViewArg {
 fn angles(text: &str) -> Result<ViewArg, String> {
     let refused = || {
         format!(
-            "'{text}' is no view; there are front, back, left, right, side, top, three-quarter and \
+            "'{text}' is not a view; there are front, back, left, right, side, top, three-quarter and \
              YAW,PITCH in degrees"
         )
     };

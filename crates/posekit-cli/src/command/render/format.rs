@@ -94,7 +94,8 @@ pub(super) fn of(args: &RenderArgs) -> Result<Product, Failure> {
     }
     if args.output == STDIN && console::stdout_is_terminal() {
         return Err(
-            Failure::usage("a picture is no text to show on a terminal").try_next("name a file")
+            Failure::usage("a picture cannot be shown as text on a terminal")
+                .try_next("name a file"),
         );
     }
     if let Some(fps) = args.fps {
@@ -106,7 +107,7 @@ pub(super) fn of(args: &RenderArgs) -> Result<Product, Failure> {
         let is_rate = FrameTime::of_rate(fps).is_ok();
         if !is_rate || fps > most {
             return Err(Failure::usage(format!(
-                "{fps:?} is no frame rate of .{}: it goes from 1e-9 up to {most}",
+                "{fps:?} is not a frame rate for .{}: that is from 1e-9 to {most}",
                 product.extension()
             )));
         }

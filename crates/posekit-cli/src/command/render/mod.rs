@@ -25,7 +25,7 @@ use write::Work;
 pub(crate) fn run(args: &RenderArgs, global: &Global) -> Result<(), Failure> {
     let format = format::of(args)?;
     let inputs = inputs::expand(&args.files);
-    let plan = Plan::new(&args.output, &inputs, format.extension())?;
+    let plan = Plan::new(&args.output, &inputs, format.extension(), &global.guard)?;
     let companions = shot::companions(args, global)?;
     let renderer = Mutex::new(renderer(args.renderer, global)?);
     let is_set = inputs.is_set;

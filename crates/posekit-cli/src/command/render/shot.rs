@@ -1,12 +1,14 @@
 //! From an input and the options to a stage and the moments of it that are drawn.
 
 use std::ffi::OsString;
+use std::ops::Range;
 use std::sync::Arc;
 
 use posekit::keyframe::KeyedCamera;
 use posekit::motion::{FrameTime, Motion};
 use posekit::skeleton::{JointId, Skeleton};
 use posekit_formats::scene;
+use posekit_render::character::MOST_BODY_JOINTS;
 use posekit_render::output::{even_size, spread_times};
 use posekit_render::scene::{Background, MOST_LAMPS, Scene};
 use posekit_render::stage::{
@@ -21,6 +23,7 @@ use crate::inputs::{self, Input, Source};
 use crate::load;
 use crate::scene_file;
 use crate::select;
+use crate::text::{counted, grouped};
 
 use super::args::{RenderArgs, Size};
 use super::camera::{self, Chosen};
@@ -39,6 +42,8 @@ const MOST_FRAMES: f64 = 1e7;
 #[derive(Debug)]
 pub(super) struct Shot {
     stage: Stage,
+    /// When the stage's motion begins: later than its scene where only a part of that is baked.
+    motion_start_secs: f64,
     /// A camera of the scene file, in place of the stage's view.
     camera: Option<KeyedCamera>,
     /// Of one picture.
@@ -57,6 +62,7 @@ impl Shot {
     /// The scene at a time.
     pub(super) fn scene(&self, time_secs: f64) -> Scene {
         let aspect = self.size.width as f32 / self.size.height as f32;
+        let time_secs = time_secs - self.motion_start_secs;
         match &self.camera {
             Some(camera) => {
                 let at = self.stage.surroundings().start_secs + time_secs;
@@ -127,16 +133,27 @@ pub(super) fn prepare(
 ) -> Result<Shot, Failure> {
     let name = input.name();
     let scene = match &input.source {
-        Source::File(path) if scene_file::is_scene(path) => Some((path, scene_file::read(path)?)),
+        Source::File(path) if scene_file::is_scene(path) => {
+            Some((path, scene_file::read(path, &global.guard)?))
+        }
         _ => None,
     };
+    let mut part = None;
     let (mut motion, mut warnings) = match &scene {
         Some((path, scene)) => {
-            let import = scene_file::shot(path, scene)?;
+            let import = scene_file::shot(path, scene, &global.guard)?;
             load::refuse_repairs(&name, &import.report, global)?;
             let warnings = load::repair_lines(&name, &import.report.warnings);
-            let motion = import.document.bake(None);
-            scene_file::refuse_too_far(&motion).map_err(|failure| failure.in_file(&name))?;
+            let shot = import.document;
+            part = part_of(args, product, companions, &shot)
+                .map_err(|failure| failure.in_file(&name))?;
+            let motion = match &part {
+                Some(part) => shot.bake_frames(None, part.baked.clone()),
+                None => shot.bake(None),
+            };
+            let first = part.as_ref().map_or(0, |part| part.baked.start);
+            scene_file::refuse_too_far(&motion, |place| first + place)
+                .map_err(|failure| failure.in_file(&name))?;
             (motion, warnings)
         }
         None => motion_of(args, input, global)?,
@@ -164,12 +181,27 @@ pub(super) fn prepare(
         .unwrap_or_else(|| default_rate(product, motion.frame_time_secs()));
     let longest = companions.iter().map(|motion| motion.duration_secs());
     let end_secs = longest.fold(motion.duration_secs(), f64::max);
+    let frame_count = part
+        .as_ref()
+        .map_or(motion.frame_count(), |part| part.frame_count);
     let past_the_end = args
         .frames
         .as_ref()
-        .and_then(|frames| frames.past_the_end(motion.frame_count()));
-    let notes = past_the_end.map(|note| format!("{name}: {note}"));
-    let times_secs = times(args, product, &motion, end_secs, frames_per_sec).map_err(in_file)?;
+        .and_then(|frames| frames.past_the_end(frame_count));
+    let mut notes: Vec<String> = past_the_end.into_iter().collect();
+    let mut motion_start_secs = 0.0;
+    if let Some(Part { baked, .. }) = part.as_ref().filter(|part| !part.baked.is_empty()) {
+        motion_start_secs = baked.start as f64 * motion.frame_time_secs();
+        notes.push(format!(
+            "of {} only {}..{} are baked, and the camera is set for these",
+            counted(frame_count, "frame"),
+            baked.start,
+            baked.end
+        ));
+    }
+    let frame_time_secs = motion.frame_time_secs();
+    let whole = (frame_count, frame_time_secs, end_secs);
+    let times_secs = times(args, product, whole, frames_per_sec).map_err(in_file)?;
     let mut options = options(args, &motion, companions).map_err(in_file)?;
     let style = options.style;
     let camera = match camera::choose(args.camera.as_deref(), scene.as_ref()).map_err(in_file)? {
@@ -184,22 +216,71 @@ pub(super) fn prepare(
         .enumerate()
         .map(|(index, motion)| actor(motion, style, index));
     let actors: Vec<Actor> = actors.collect();
-    if let Some(why) = actors.first().and_then(Actor::doubt) {
+    if actors.first().is_some_and(Actor::has_too_many_joints) {
+        let most = grouped(MOST_BODY_JOINTS);
+        warnings.push(format!(
+            "{name}: drawn as bones, not as a body: it has more than {most} joints"
+        ));
+    } else if let Some(why) = actors.first().and_then(Actor::doubt) {
         warnings.push(format!("{name}: drawn as bones, not as a body: {why}"));
     }
     let mut stage = Stage::new(actors, options);
     if let Some(scene) = &scene {
-        stage.set_surroundings(surroundings(scene, &name, &mut warnings));
+        let mut surroundings = surroundings(scene, &name, &mut warnings);
+        surroundings.start_secs += motion_start_secs;
+        stage.set_surroundings(surroundings);
     }
     Ok(Shot {
         stage,
+        motion_start_secs,
         camera,
         size,
         frames_per_sec,
         times_secs,
         warnings,
-        notes: notes.into_iter().collect(),
+        notes: notes.iter().map(|note| format!("{name}: {note}")).collect(),
     })
+}
+
+/// What is baked of a scene that is too long to be baked whole.
+struct Part {
+    baked: Range<usize>,
+    /// How many frames the whole scene has.
+    frame_count: usize,
+}
+
+/// The frames of a scene that are drawn, where all of them would be too many; fails where these are, too.
+fn part_of(
+    args: &RenderArgs,
+    product: Product,
+    companions: &[Arc<Motion>],
+    shot: &scene::Shot,
+) -> Result<Option<Part>, Failure> {
+    if args.rest {
+        return Ok(Some(Part {
+            baked: 0..0,
+            frame_count: 1,
+        }));
+    }
+    let frame_count = shot.frame_count(None);
+    if scene_file::fits(shot, frame_count) {
+        return Ok(None);
+    }
+    let drawn = match (&args.frames, product) {
+        // They are drawn at the same time, from their own beginnings.
+        _ if !companions.is_empty() => 0..frame_count,
+        (None, Product::Picture) => {
+            let middle = (frame_count - 1) / 2;
+            middle..middle + 1
+        }
+        (None, _) => 0..frame_count,
+        (Some(selection), _) => selection.span(frame_count)?,
+    };
+    scene_file::refuse_large(shot, drawn.len())?;
+    Ok(Some(Part {
+        baked: drawn,
+        frame_count,
+    }))
 }
 
 /// The lights and objects of a scene, and what must be said of them.
@@ -274,16 +355,14 @@ fn default_rate(product: Product, frame_time_secs: f64) -> f64 {
 fn times(
     args: &RenderArgs,
     product: Product,
-    motion: &Motion,
-    end_secs: f64,
+    (frame_count, frame_time, end_secs): (usize, f64, f64),
     frames_per_sec: f64,
 ) -> Result<Vec<f64>, Failure> {
-    let frame_time = motion.frame_time_secs();
     let at = |frame: usize| frame as f64 * frame_time;
     let chosen = args
         .frames
         .as_ref()
-        .map(|selection| selection.frames(motion.frame_count()))
+        .map(|selection| selection.frames(frame_count))
         .transpose()?;
     let (start, end) = match chosen.as_deref() {
         Some([first, .., last]) => (at(*first), at(*last)),
@@ -291,15 +370,13 @@ fn times(
         Some([]) | None => (0.0, end_secs),
     };
     match (product, chosen) {
-        (Product::Picture, None) => Ok(vec![at((motion.frame_count() - 1) / 2)]),
+        (Product::Picture, None) => Ok(vec![at((frame_count - 1) / 2)]),
         (Product::Picture, Some(frames)) if frames.len() > 1 => {
             Err(Failure::new("one picture cannot show several frames")
                 .try_next("give --contact-sheet N, or number the pictures: -o 'name_####.png'"))
         }
         (Product::ContactSheet { count }, _) => Ok(spread_times(usize::from(count), start, end)),
-        (Product::Numbered, None) if args.fps.is_none() => {
-            Ok((0..motion.frame_count()).map(at).collect())
-        }
+        (Product::Numbered, None) if args.fps.is_none() => Ok((0..frame_count).map(at).collect()),
         (_, Some(frames)) if args.fps.is_none() && product != Product::Gif || !is_run(&frames) => {
             Ok(frames.into_iter().map(at).collect())
         }

@@ -13,7 +13,7 @@ use posekit_render::render::Renderer;
 
 use crate::console;
 use crate::failure::Failure;
-use crate::output::{Destination, write_whole};
+use crate::output::{Destination, Target, write_whole};
 use crate::progress::Progress;
 use crate::text::{counted, duration, trimmed};
 
@@ -38,15 +38,15 @@ pub(super) fn write(work: &Work<'_>, renderer: &mut Renderer) -> Result<String, 
     let frames = work.shot.times_secs.len();
     let progress = Progress::frames(frames, !work.show_progress);
     match work.destination {
-        Destination::File(path) if work.format == Product::Numbered => {
-            write_numbered(work.shot, path, renderer, &progress)?;
+        Destination::File(target) if work.format == Product::Numbered => {
+            write_numbered(work.shot, target, renderer, &progress)?;
         }
-        Destination::File(path) => {
+        Destination::File(target) => {
             let mut refused = None;
-            let written = write_whole(path, |file| {
+            let written = write_whole(target, |file| {
                 encode(work, renderer, file, &progress).map_err(|error| split(error, &mut refused))
             });
-            said(written, refused, &path.display().to_string())?;
+            said(written, refused, &target.display().to_string())?;
         }
         Destination::Stdout => {
             let mut refused = None;
@@ -127,18 +127,19 @@ fn encode(
 /// A file for each moment, each whole.
 fn write_numbered(
     shot: &Shot,
-    pattern: &Path,
+    pattern: &Target,
     renderer: &mut Renderer,
     progress: &Progress,
 ) -> Result<(), Failure> {
     for (number, &time_secs) in shot.times_secs.iter().enumerate() {
-        let path = numbered(pattern, number);
+        let path = numbered(pattern.path(), number);
+        let target = pattern.one_of(&path)?;
         let image = renderer
             .render(&shot.scene(time_secs), shot.size.width, shot.size.height)
             .map_err(|error| {
                 Failure::new(error.to_string()).in_file(&path.display().to_string())
             })?;
-        write_whole(&path, |file| Ok(write_png(&image, file)?))?;
+        write_whole(&target, |file| Ok(write_png(&image, file)?))?;
         progress.advance("");
     }
     Ok(())
@@ -156,7 +157,7 @@ fn numbered(pattern: &Path, number: usize) -> PathBuf {
 }
 
 fn announcement(work: &Work<'_>) -> String {
-    let Destination::File(path) = work.destination else {
+    let Destination::File(target) = work.destination else {
         return String::new();
     };
     let Shot {
@@ -178,7 +179,7 @@ fn announcement(work: &Work<'_>) -> String {
             duration(count as f64 / frames_per_sec)
         ),
     };
-    format!("wrote {}: {what}", path.display())
+    format!("wrote {}: {what}", target.display())
 }
 
 #[cfg(test)]

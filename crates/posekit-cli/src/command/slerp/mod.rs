@@ -14,7 +14,7 @@ use crate::failure::Failure;
 ///
 /// An orientation is three Euler angles in degrees in the order of --order, or a quaternion of four numbers
 /// x,y,z,w. The tables show, over the way from t = 0 to 1, how far each method strays from slerp, how
-/// fast it turns, and where it is no rotation at all: a determinant that is not 1, axes that are not at
+/// fast it turns, and where it is not a rotation at all: a determinant that is not 1, axes that are not at
 /// right angles.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]

@@ -8,7 +8,7 @@ use crate::failure::Failure;
 /// Three angles in degrees, or a quaternion of any length but none.
 pub(super) fn read(text: &str, order: EulerOrder) -> Result<DQuat, Failure> {
     let wrong = || {
-        Failure::usage(format!("'{text}' is no orientation"))
+        Failure::usage(format!("'{text}' is not an orientation"))
             .try_next("three angles in degrees as 10,0,-45, or a quaternion x,y,z,w")
     };
     let numbers: Vec<f64> = text

@@ -91,7 +91,7 @@ pub(super) fn print(ends: &Ends, methods: &[Method], steps: usize) -> Result<(),
 
 /// One row for each method and step.
 pub(super) fn csv(ends: &Ends, methods: &[Method], steps: usize) -> Result<(), Failure> {
-    let mut out = console::stdout();
+    let mut out = console::binary_stdout();
     write!(out, "{}", ways::csv(ends, methods, steps))?;
     Ok(out.flush()?)
 }

@@ -43,6 +43,17 @@ pub enum EditError {
         /// The factor.
         factor: f64,
     },
+    /// A factor carries a length beyond the numbers that there are.
+    #[error(
+        "a scale of {factor:?} makes the length {length:?} larger than {:e}, the largest number that there is",
+        f64::MAX
+    )]
+    TooLarge {
+        /// The factor.
+        factor: f64,
+        /// The length as it was.
+        length: f64,
+    },
     /// A rate asks for more frames than fit in memory.
     #[error(
         "cannot make {fps:?} frames a second of this motion: there would be more than fit in memory"

@@ -13,9 +13,8 @@ use crate::bvh::Bvh;
 /// # Errors
 /// When the factor is not a number above zero, or a length would not be finite.
 pub fn scale(bvh: &mut Bvh, factor: f64) -> Result<(), EditError> {
-    let bad = EditError::BadScale { factor };
     if !(factor.is_finite() && factor > 0.0) {
-        return Err(bad);
+        return Err(EditError::BadScale { factor });
     }
     let divisor = (1.0 / factor).round();
     let divides = divisor >= 2.0 && ((1.0 / divisor) - factor).abs() <= f64::EPSILON * factor;
@@ -33,13 +32,13 @@ pub fn scale(bvh: &mut Bvh, factor: f64) -> Result<(), EditError> {
         .map(|channel| matches!(channel, Channel::Position(_)))
         .collect();
     let offsets = bvh.joints.iter().flat_map(|joint| joint.offset);
-    let in_row = |row: &[f64]| {
-        row.iter()
-            .zip(&is_length)
-            .all(|(value, &is)| !is || scaled(*value).is_finite())
-    };
-    if !offsets.map(scaled).all(f64::is_finite) || !bvh.rows().all(in_row) {
-        return Err(bad);
+    let positions = bvh.rows().flat_map(|row| {
+        let values = row.iter().zip(&is_length);
+        values.filter(|(_, is)| **is).map(|(value, _)| *value)
+    });
+    let beyond = |length: &f64| !scaled(*length).is_finite();
+    if let Some(length) = offsets.chain(positions).find(beyond) {
+        return Err(EditError::TooLarge { factor, length });
     }
     for joint in &mut bvh.joints {
         joint.offset = joint.offset.map(scaled);

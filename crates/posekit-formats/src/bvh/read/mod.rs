@@ -92,7 +92,7 @@ pub fn read_with(
     Ok(read.import)
 }
 
-/// Reads a BVH file in which values of the rows may be no numbers (`nan`, `inf`, `-nan(ind)`, `1.#QNAN`, or
+/// Reads a BVH file in which values of the rows may not be numbers (`nan`, `inf`, `-nan(ind)`, `1.#QNAN`, or
 /// beyond a double), and says where: the gaps, by frame and column. The document holds 0 in their place, which
 /// means nothing; [`bridge_gaps`](crate::bvh::bridge_gaps) makes a motion of it.
 ///
