@@ -138,7 +138,8 @@ pub fn undo_buttons(ui: &mut Ui, (undo, redo): (Step, Step), height: f32, asked:
                 Step::Named(name) => tip(&format!("{verb}: {name}"), command),
                 Step::None | Step::Unnamed => tip(verb, command),
             };
-            if sized_icon(ui, icon, &says, false, vec2(26.0, height)).clicked() {
+            let height = height.max(ui.spacing().interact_size.y);
+            if sized_icon(ui, icon, &says, false, vec2(height.max(26.0), height)).clicked() {
                 asked.command(command);
             }
         });
@@ -147,12 +148,12 @@ pub fn undo_buttons(ui: &mut Ui, (undo, redo): (Step, Step), height: f32, asked:
 
 /// One of several beside each other.
 pub fn segment(ui: &mut Ui, name: &str, chosen: bool) -> Response {
-    const HEIGHT: f32 = 22.0;
+    let height = ui.spacing().interact_size.y - 2.0;
     let palette = Palette::in_ui(ui);
     let font = egui::TextStyle::Button.resolve(ui.style());
     let color = if chosen { palette.accent } else { palette.text };
     let galley = ui.painter().layout_no_wrap(name.to_owned(), font, color);
-    let size = vec2(galley.size().x + 5.0 * GAP, HEIGHT);
+    let size = vec2(galley.size().x + 5.0 * GAP, height);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     response
         .widget_info(|| egui::WidgetInfo::selected(egui::Role::RadioButton, true, chosen, name));
