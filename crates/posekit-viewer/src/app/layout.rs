@@ -175,11 +175,12 @@ impl Viewer {
             self.show_poses(ui);
             return;
         }
+        let least = JOINTS_LEAST.min(0.5 * ui.available_height());
         Panel::bottom("joints")
             .frame(Frame::NONE)
             .resizable(true)
             .default_size(330.0)
-            .size_range(JOINTS_LEAST..=(ui.available_height() - 160.0).max(JOINTS_LEAST))
+            .size_range(least..=(ui.available_height() - 160.0).max(least))
             .show(ui, |ui| {
                 ui.add_space(4.0);
                 joints::show(ui, &mut self.session, &mut self.tree);
@@ -231,7 +232,7 @@ impl Viewer {
     }
 
     /// Shows the windows over everything. True when one of them has changed by that.
-    pub(super) fn show_windows(&mut self, ctx: &egui::Context) -> bool {
+    pub(super) fn show_windows(&mut self, ctx: &egui::Context, asked: &mut Asked) -> bool {
         self.show_questions(ctx);
         #[cfg(not(target_arch = "wasm32"))]
         let was_chosen = self.show_chooser(ctx);
@@ -239,7 +240,7 @@ impl Viewer {
         let was_chosen = false;
         let help_was_open = self.help_open;
         if self.help_open {
-            self.help_open = help::show(ctx, &mut self.help_search);
+            self.help_open = help::show(ctx, &mut self.help_search, asked);
         }
         if self.messages_open {
             self.messages_open = notices::show_all(ctx, &self.notices);

@@ -386,7 +386,7 @@ impl Viewer {
         };
         self.take_keys(ui, &mut asked);
         self.show_panels(ui, &mut asked);
-        let answered = self.show_windows(&ctx);
+        let answered = self.show_windows(&ctx, &mut asked);
         self.picture_count += 1;
         self.is_current = !answered && asked.is_empty() && self.is_view_current();
         for request in std::mem::take(&mut asked.requests) {

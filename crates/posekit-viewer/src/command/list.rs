@@ -12,6 +12,8 @@ pub struct Line {
     pub says: &'static str,
     /// Where the line stands.
     pub group: Group,
+    /// What they ask for; `None` for keys that only mean something while they are held beside something.
+    pub command: Option<Command>,
 }
 
 /// Keys that are in no table: they are about what is held, open or typed into just then.
@@ -139,18 +141,36 @@ pub fn lines() -> Vec<Line> {
             let is_there = |line: &Line| line.group == group && line.says == says;
             if !lines.iter().any(is_there) {
                 let keys = keys_of(binding.command, |other| other.group == group);
-                lines.push(Line { keys, says, group });
+                let command = Some(binding.command);
+                lines.push(Line {
+                    keys,
+                    says,
+                    group,
+                    command,
+                });
             }
         }
         for (command, _, says) in IN_LABS.iter().filter(|line| line.1 == group) {
             let keys = keys_of(*command, |binding| !binding.group.is_of_animation());
             if !keys.is_empty() {
-                lines.push(Line { keys, says, group });
+                let command = Some(*command);
+                lines.push(Line {
+                    keys,
+                    says,
+                    group,
+                    command,
+                });
             }
         }
         for (keys, _, says) in HELD.iter().filter(|line| line.1 == group) {
             let keys = keys.iter().map(|key| (*key).to_owned()).collect();
-            lines.push(Line { keys, says, group });
+            let command = None;
+            lines.push(Line {
+                keys,
+                says,
+                group,
+                command,
+            });
         }
     }
     lines
@@ -197,7 +217,10 @@ pub fn found(lines: &[Line], search: &str) -> Vec<Line> {
     let of_key = |line: &Line| {
         let mut keys = line.keys.iter().map(|key| key.to_lowercase());
         keys.any(|key| {
-            let last = key.rsplit('+').next().unwrap_or_default();
+            let last = match key.strip_suffix('+') {
+                Some(_) => "+",
+                None => key.rsplit('+').next().unwrap_or_default(),
+            };
             key == search || last == search
         })
     };
@@ -302,7 +325,7 @@ mod tests {
         assert!(o.len() >= 3);
         assert_eq!(says("").len(), lines.len());
         assert!(says("no such thing").is_empty());
-        assert!(says("plus").contains(&"Nearer"));
+        assert!(says("+").contains(&"Nearer"));
         assert!(says("page").contains(&"IK: one step back"));
     }
 }

@@ -282,10 +282,22 @@ impl Binding {
             key => key,
         };
         let text = KeyboardShortcut::new(self.modifiers, key).format(&names, mac);
-        text.replace("ArrowRight", "\u{2192}")
-            .replace("ArrowLeft", "\u{2190}")
-            .replace("ArrowUp", "\u{2191}")
-            .replace("ArrowDown", "\u{2193}")
+        // A key is named as it is written on it.
+        let written = [
+            ("ArrowRight", "\u{2192}"),
+            ("ArrowLeft", "\u{2190}"),
+            ("ArrowUp", "\u{2191}"),
+            ("ArrowDown", "\u{2193}"),
+            ("OpenBracket", "["),
+            ("CloseBracket", "]"),
+            ("Period", "."),
+            ("Plus", "+"),
+            ("Minus", "-"),
+            ("Equals", "="),
+            ("Slash", "/"),
+        ];
+        let named = |text: String, (name, sign): (&str, &str)| text.replace(name, sign);
+        written.into_iter().fold(text, named)
     }
 }
 

@@ -2,8 +2,8 @@
 
 use egui::{Key, Modifiers, RichText, Ui, vec2};
 
-use super::row;
-use crate::command::{Group, Line, found, lines};
+use super::{Asked, row};
+use crate::command::{Command, Group, Line, found, lines};
 use crate::state::library::matches;
 use crate::theme::{GAP, Palette};
 
@@ -28,14 +28,16 @@ const MOUSE: [(&str, &str); 16] = [
 ];
 
 /// Width of a column of the list.
-const COLUMN: f32 = 268.0;
+const COLUMN: f32 = 276.0;
 
 /// Width of the keys in it.
-const KEYS: f32 = 104.0;
+const KEYS: f32 = 118.0;
 
-/// Shows the list in a window of its own. False when it was closed.
-pub fn show(ctx: &egui::Context, search: &mut String) -> bool {
+/// Shows the list in a window of its own. False when it was closed; what a line asks for that was clicked is
+/// asked for.
+pub fn show(ctx: &egui::Context, search: &mut String, asked: &mut Asked) -> bool {
     let mut open = true;
+    let mut clicked = None;
     let screen = ctx.content_rect();
     let margin = if screen.width() < 600.0 { 12 } else { 24 };
     let modal = egui::Modal::new(egui::Id::unique("help"));
@@ -72,9 +74,16 @@ pub fn show(ctx: &egui::Context, search: &mut String) -> bool {
             .auto_shrink([false, true])
             .max_height(height)
             .min_scrolled_height(height);
-        area.show(ui, |ui| list(ui, columns, search));
+        area.show(ui, |ui| list(ui, columns, search, &mut clicked));
     });
     let closed_by_key = ctx.input_mut(|i| i.consume_key(Modifiers::NONE, Key::F1));
+    if let Some(command) = clicked {
+        // The list is closed by that, also where the command is to open it.
+        if command != Command::ToggleHelp {
+            asked.command(command);
+        }
+        return false;
+    }
     open && !closed_by_key && !modal.should_close()
 }
 
@@ -90,7 +99,7 @@ fn columns_in(width: f32) -> u8 {
 /// A heading and its lines.
 struct Block {
     title: &'static str,
-    lines: Vec<(String, &'static str)>,
+    lines: Vec<(String, &'static str, Option<Command>)>,
 }
 
 fn blocks(search: &str) -> Vec<Block> {
@@ -105,7 +114,7 @@ fn blocks(search: &str) -> Vec<Block> {
         Block {
             title: group.title(),
             lines: lines
-                .map(|line| (line.keys.join(", "), line.says))
+                .map(|line| (line.keys.join(", "), line.says, line.command))
                 .collect(),
         }
     };
@@ -115,14 +124,14 @@ fn blocks(search: &str) -> Vec<Block> {
     blocks.push(Block {
         title: "Mouse and fingers",
         lines: mouse
-            .map(|(what, does)| ((*what).to_owned(), *does))
+            .map(|(what, does)| ((*what).to_owned(), *does, None))
             .collect(),
     });
     blocks.retain(|block| !block.lines.is_empty());
     blocks
 }
 
-fn list(ui: &mut Ui, columns: u8, search: &str) {
+fn list(ui: &mut Ui, columns: u8, search: &str, clicked: &mut Option<Command>) {
     let blocks = blocks(search);
     if blocks.is_empty() {
         row::empty_note(ui, "No key and nothing that keys do is called that.");
@@ -149,33 +158,45 @@ fn list(ui: &mut Ui, columns: u8, search: &str) {
             let (here, others) = rest.split_at(count);
             rest = others;
             ui.vertical(|ui| {
-                ui.set_width((ui.available_width() + 0.0).min(COLUMN));
+                ui.set_width(ui.available_width().min(COLUMN));
                 for block in here {
-                    show_block(ui, block);
+                    show_block(ui, block, clicked);
                 }
             });
         }
     });
 }
 
-fn show_block(ui: &mut Ui, block: &Block) {
+fn show_block(ui: &mut Ui, block: &Block, clicked: &mut Option<Command>) {
     let palette = Palette::in_ui(ui);
     let title = RichText::new(block.title).small().strong();
     ui.label(title.color(palette.quiet));
-    for (keys, says) in &block.lines {
-        ui.horizontal_top(|ui| {
+    for (keys, says, command) in &block.lines {
+        let below = ui.painter().add(egui::Shape::Noop);
+        let line = ui.horizontal_top(|ui| {
             ui.spacing_mut().item_spacing.x = 2.0 * GAP;
-            let keys = RichText::new(keys).size(12.5).color(palette.accent);
-            ui.allocate_ui_with_layout(
-                vec2(KEYS, 18.0),
-                egui::Layout::top_down(egui::Align::Min),
-                |ui| {
-                    ui.set_width(KEYS);
-                    ui.add(egui::Label::new(keys).wrap());
-                },
-            );
+            ui.set_min_height(ui.spacing().interact_size.y - 6.0);
+            let text = RichText::new(keys).color(palette.accent);
+            let layout = egui::Layout::top_down(egui::Align::Min);
+            ui.allocate_ui_with_layout(vec2(KEYS, 18.0), layout, |ui| {
+                ui.set_width(KEYS);
+                ui.add(egui::Label::new(text).wrap());
+            });
             ui.add(egui::Label::new(*says).wrap());
         });
+        let Some(command) = *command else { continue };
+        let rect = line.response.rect;
+        let id = ui.scope_id().with((keys, says));
+        let response = ui.interact(rect, id, egui::Sense::click());
+        let name = format!("{says}  ({keys})");
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
+        if response.hovered() || response.has_focus() {
+            let fill = egui::Shape::rect_filled(rect.expand(2.0), 4.0, palette.hover);
+            ui.painter().set(below, fill);
+        }
+        if response.on_hover_text("Click: do it").clicked() {
+            *clicked = Some(command);
+        }
     }
     ui.add_space(3.0 * GAP);
 }

@@ -111,5 +111,11 @@ pub fn stay_open(
 
 /// The frame of a window over everything.
 pub fn modal_frame(ctx: &egui::Context) -> egui::Frame {
-    egui::Frame::window(&ctx.global_style()).inner_margin(egui::Margin::same(24))
+    // On a phone the contents need the room.
+    let margin = if ctx.content_rect().width() < 600.0 {
+        12
+    } else {
+        24
+    };
+    egui::Frame::window(&ctx.global_style()).inner_margin(egui::Margin::same(margin))
 }

@@ -90,6 +90,31 @@ pub fn segments(
     });
 }
 
+/// Two groups of controls: beside each other where there is room, and otherwise under each other.
+pub fn rows<C>(
+    ui: &mut Ui,
+    has_room: bool,
+    context: &mut C,
+    [first, second]: [fn(&mut Ui, &mut C); 2],
+) {
+    if has_room {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = GAP;
+            first(ui, context);
+            second(ui, context);
+        });
+        return;
+    }
+    ui.vertical(|ui| {
+        for part in [first, second] {
+            ui.horizontal(|ui| {
+                ui.spacing_mut().item_spacing.x = GAP;
+                part(ui, context);
+            });
+        }
+    });
+}
+
 /// The well that segments lie in.
 pub fn well(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
     let well = egui::Frame::NONE
