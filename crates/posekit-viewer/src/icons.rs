@@ -81,7 +81,8 @@ pub fn icon_button(ui: &mut Ui, icon: Icon, says: &str) -> Response {
 
 /// A square button that shows an icon and whether it is on.
 pub fn toggle_icon(ui: &mut Ui, icon: Icon, says: &str, on: bool) -> Response {
-    sized_icon(ui, icon, says, on, Vec2::splat(28.0))
+    let side = ui.spacing().interact_size.y.max(28.0);
+    sized_icon(ui, icon, says, on, Vec2::splat(side))
 }
 
 /// As [`toggle_icon`], in a size.

@@ -20,7 +20,7 @@ pub fn run_native(options: ViewerOptions) -> Result<(), WindowError> {
         .with_title("posekit")
         .with_app_id("posekit")
         .with_inner_size([1280.0, 800.0])
-        .with_min_inner_size([760.0, 520.0])
+        .with_min_inner_size([360.0, 320.0])
         .with_drag_and_drop(true);
     let native = eframe::NativeOptions {
         viewport,

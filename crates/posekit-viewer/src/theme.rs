@@ -12,6 +12,9 @@ pub const GAP: f32 = 4.0;
 /// Height of rows and buttons.
 pub const ROW: f32 = 24.0;
 
+/// Height of what a finger presses.
+pub const FINGER: f32 = 36.0;
+
 /// The colours of a look.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Palette {
@@ -161,6 +164,13 @@ fn set_spacing(style: &mut Style) {
     spacing.icon_width_inner = 9.0;
     spacing.scroll = egui::style::ScrollStyle::thin();
     spacing.tooltip_width = 340.0;
+}
+
+/// Gives what is pressed a height.
+pub fn set_row(style: &mut Style, row: f32) {
+    style.spacing.interact_size = Vec2::splat(row);
+    // As much as the text leaves of it.
+    style.spacing.button_padding.y = GAP + (row - ROW) / 2.0;
 }
 
 fn set_visuals(visuals: &mut egui::Visuals, palette: &Palette) {

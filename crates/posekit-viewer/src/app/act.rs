@@ -10,12 +10,15 @@ use crate::command::{self, Command};
 use crate::load::{Input, Purpose};
 use crate::panels::Request;
 use crate::panels::export::ExportWindow;
+use crate::panels::sides::Side;
 use crate::picture::painter::thread_count;
 use crate::picture::to_color_image;
 use crate::state::clip::Source;
 use crate::state::notices::NoticeKind;
 use crate::state::session::ClipId;
 use crate::theme;
+#[cfg(not(target_arch = "wasm32"))]
+use crate::work::dialog::Wanted;
 use crate::work::export::Take;
 use crate::work::files;
 
@@ -38,11 +41,12 @@ impl Viewer {
             return;
         }
         match command {
-            Command::ToggleLeft => self.layout.left = !self.layout.left,
-            Command::ToggleRight => self.layout.right = !self.layout.right,
+            Command::ToggleLeft => self.sides.toggle(Side::Left, &mut self.layout),
+            Command::ToggleRight => self.sides.toggle(Side::Right, &mut self.layout),
             Command::ToggleCurves => self.layout.curves = !self.layout.curves,
             Command::ToggleText => self.layout.text = !self.layout.text,
             Command::ToggleHelp => self.help_open = !self.help_open,
+            Command::ShowMessages => self.messages_open = true,
             Command::Open => self.ask_for_files(),
             Command::OpenFolder => self.ask_for_folder(),
             Command::CopyPicture => self.copy_picture(ctx),
@@ -97,6 +101,8 @@ impl Viewer {
             }
             Request::Reload(id) => self.reload(ctx, id),
             Request::Author(start) => self.start_authoring(ctx, start),
+            #[cfg(not(target_arch = "wasm32"))]
+            Request::AskInWindow(asks) => self.dialogs.asks_in_window = asks,
         }
     }
 
@@ -122,22 +128,22 @@ impl Viewer {
         }
     }
 
-    pub(super) fn ask_for_files(&self) {
+    pub(super) fn ask_for_files(&mut self) {
         #[cfg(not(target_arch = "wasm32"))]
-        files::ask_for_files(self.loader.outbox());
+        self.ask_for(Wanted::Files);
         #[cfg(target_arch = "wasm32")]
         crate::web::ask_for_files(self.loader.outbox());
     }
 
-    fn ask_for_folder(&self) {
+    fn ask_for_folder(&mut self) {
         #[cfg(not(target_arch = "wasm32"))]
-        files::ask_for_folder(self.loader.outbox());
+        self.ask_for(Wanted::Folder);
     }
 
     pub(super) fn hand_over(&mut self, ctx: &egui::Context, parcel: Result<files::Parcel, String>) {
         match parcel {
             #[cfg(not(target_arch = "wasm32"))]
-            Ok(parcel) => files::hand_over(self.loader.outbox(), parcel),
+            Ok(parcel) => self.ask_for(Wanted::File(parcel)),
             #[cfg(target_arch = "wasm32")]
             Ok(parcel) => crate::web::hand_over(self.loader.outbox(), &parcel),
             Err(message) => {
@@ -195,10 +201,10 @@ impl Viewer {
         self.export_options = *options;
         self.export = ExportWindow::Closed;
         if let Some(clip) = self.session.active_clip() {
-            let extension = self.export_options.format.extension();
-            let name = format!("{}.{extension}", files::stem_of(&clip.name));
+            let ending = self.export_options.format.extension();
+            let name = format!("{}.{ending}", files::stem_of(&clip.name));
             #[cfg(not(target_arch = "wasm32"))]
-            files::ask_for_video_path(self.loader.outbox(), name, extension);
+            self.ask_for(Wanted::Video { name, ending });
             #[cfg(target_arch = "wasm32")]
             self.export_to(name.into());
         }

@@ -71,7 +71,11 @@ impl Viewer {
                 }
                 Event::Authored { clip, started } => self.take_authored(clip, *started, now),
                 Event::Changed { clip } => self.tell_changed(clip, now),
-                Event::Chosen(chosen) => self.take_chosen(ctx, chosen),
+                Event::Chosen(chosen) => self.take_chosen(chosen),
+                #[cfg(not(target_arch = "wasm32"))]
+                Event::Answered { wanted, answer } => {
+                    self.take_system_answer(ctx, *wanted, answer);
+                }
                 Event::Summary(summary) => self.take_summary(ctx, *summary),
                 Event::FolderDone => {}
                 Event::Text(text) => self.text.take(text),
@@ -181,12 +185,9 @@ impl Viewer {
         }
     }
 
-    fn take_chosen(&mut self, ctx: &egui::Context, chosen: Chosen) {
+    fn take_chosen(&mut self, chosen: Chosen) {
         match chosen {
             Chosen::Inputs(inputs) => self.open_inputs(inputs),
-            Chosen::Folder(folder) => self.list_folder(ctx, folder),
-            Chosen::VideoPath(path) => self.export_to(path),
-            Chosen::ScenePath(id, path) => self.take_scene_path(ctx, id, path),
             Chosen::Beside(inputs) => {
                 for input in inputs {
                     self.loader.read(input, Purpose::Beside);

@@ -22,10 +22,7 @@ const PACE: f64 = 1.5;
 impl Viewer {
     /// Shows the lab in all the room that is left.
     pub(super) fn show_interpolation(&mut self, ui: &mut Ui, asked: &mut Asked) {
-        let sides = interpolation::Sides {
-            left: self.layout.left,
-            right: self.layout.right,
-        };
+        let sides = self.sides;
         let look = self.session.look();
         if self.interpolation.page() == Page::Clip {
             let active = self.session.active_id().zip(self.session.active_clip());

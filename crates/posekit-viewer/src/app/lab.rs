@@ -17,10 +17,7 @@ impl Viewer {
     /// Shows the lab in all the room that is left.
     pub(super) fn show_lab(&mut self, ui: &mut Ui, asked: &mut Asked) {
         self.lab.fill();
-        let sides = arm_lab::Sides {
-            left: self.layout.left,
-            right: self.layout.right,
-        };
+        let sides = self.sides;
         let look = self.session.look();
         let parts = (&mut self.lab, &mut self.lab_panel, &mut self.painter);
         let view = arm_lab::show(ui, parts, (sides, look), asked);

@@ -5,13 +5,11 @@ use egui::{CentralPanel, Color32, Frame, Margin, Panel, Rect, RichText, Ui, Vec2
 use super::Viewer;
 use crate::command::{self, Command, Place};
 use crate::panels::inspector::Checking;
+use crate::panels::sides::{Room, Side, Sides};
 use crate::panels::{Asked, curves, export, help, inspector, joints, library, notices, row};
 use crate::panels::{text, top_bar, transport, view};
 use crate::state::mode::Mode;
-use crate::theme::Palette;
-
-/// Under this width the inspector does not open by itself beside the other panels.
-const NARROW: f32 = 900.0;
+use crate::theme::{self, Palette};
 
 /// Beside a text the figure has at least this width, and the text that one.
 const VIEW_LEAST: f32 = 240.0;
@@ -24,7 +22,9 @@ impl Viewer {
     /// Takes the keys that were pressed, unless somebody is typing.
     pub(super) fn take_keys(&mut self, ui: &mut Ui, asked: &mut Asked) {
         let busy = self.help_open
+            || self.messages_open
             || self.is_asking()
+            || self.is_choosing()
             || !matches!(self.export, export::ExportWindow::Closed);
         if ui.ctx().text_edit_focused() {
             return;
@@ -63,15 +63,13 @@ impl Viewer {
 
     /// Shows all panels and the view.
     pub(super) fn show_panels(&mut self, ui: &mut Ui, asked: &mut Asked) {
-        let is_narrow = ui.available_width() < NARROW;
+        self.sides = Sides::of(self.layout, ui.available_size());
+        self.fit_fingers(ui);
+        let sides = self.sides;
         let panel = Frame::NONE.fill(ui.visuals().panel_fill);
-        let sides = top_bar::Sides {
-            left: self.layout.left,
-            right: self.layout.right,
-        };
         Panel::top("top")
             .frame(panel.inner_margin(Margin::symmetric(8, 4)))
-            .exact_size(40.0)
+            .exact_size(ui.spacing().interact_size.y + 16.0)
             .show(ui, |ui| top_bar::show(ui, &mut self.session, sides, asked));
         if self.session.mode() == Mode::Lab {
             self.show_lab(ui, asked);
@@ -87,8 +85,13 @@ impl Viewer {
             .show(ui, |ui| {
                 self.places.time_line = transport::show(ui, &mut self.session, asked);
             });
-        self.show_timeline(ui, asked);
-        if self.layout.curves {
+        // Under the view there is room for one thing.
+        if sides.is_under_view() {
+            self.timeline.hide();
+        } else {
+            self.show_timeline(ui, asked);
+        }
+        if self.layout.curves && !sides.is_under_view() {
             Panel::bottom("curves")
                 .frame(panel.inner_margin(Margin::symmetric(8, 6)))
                 .resizable(true)
@@ -99,7 +102,8 @@ impl Viewer {
                 });
         }
         self.places.text = text::TextPlaces::NONE;
-        if self.layout.text && is_narrow {
+        let is_narrow = sides.room != Room::Wide;
+        if self.layout.text && is_narrow && !sides.is_under_view() {
             Panel::bottom("text below")
                 .frame(panel.inner_margin(Margin::symmetric(8, 6)))
                 .resizable(true)
@@ -107,20 +111,16 @@ impl Viewer {
                 .size_range(120.0..=480.0)
                 .show(ui, |ui| self.show_text(ui, asked));
         }
-        if self.layout.left {
-            Panel::left("left")
+        if sides.left {
+            sides
+                .panel(Side::Left, "left", (180.0, 256.0), ui)
                 .frame(panel.inner_margin(Margin::symmetric(8, 6)))
-                .resizable(true)
-                .default_size(256.0)
-                .size_range(200.0..=440.0)
                 .show(ui, |ui| self.show_left(ui, asked));
         }
-        if self.layout.right && !(is_narrow && self.layout.left) {
-            Panel::right("right")
+        if sides.right {
+            sides
+                .panel(Side::Right, "right", (240.0, 292.0), ui)
                 .frame(panel.inner_margin(Margin::symmetric(10, 6)))
-                .resizable(true)
-                .default_size(292.0)
-                .size_range(260.0..=440.0)
                 .show(ui, |ui| {
                     let id = self.session.active_id();
                     let checking = match id.is_some_and(|id| self.checking.contains(&id)) {
@@ -155,16 +155,32 @@ impl Viewer {
         self.places.text = text::show(ui, &mut self.session, &mut self.text, asked);
     }
 
+    /// On a screen that is touched, and in a window as upright as a phone, what is pressed is as large as a
+    /// fingertip.
+    fn fit_fingers(&self, ui: &mut Ui) {
+        let is_touched = ui.input(|i| i.has_touch_screen());
+        let row = if is_touched || self.sides.room == Room::Upright {
+            theme::FINGER
+        } else {
+            theme::ROW
+        };
+        if (ui.spacing().interact_size.y - row).abs() > 0.1 {
+            ui.ctx().all_styles_mut(|style| theme::set_row(style, row));
+            theme::set_row(ui.style_mut(), row);
+        }
+    }
+
     fn show_left(&mut self, ui: &mut Ui, asked: &mut Asked) {
         if self.show_clips_or_poses(ui) {
             self.show_poses(ui);
             return;
         }
+        let least = JOINTS_LEAST.min(0.5 * ui.available_height());
         Panel::bottom("joints")
             .frame(Frame::NONE)
             .resizable(true)
             .default_size(330.0)
-            .size_range(JOINTS_LEAST..=(ui.available_height() - 160.0).max(JOINTS_LEAST))
+            .size_range(least..=(ui.available_height() - 160.0).max(least))
             .show(ui, |ui| {
                 ui.add_space(4.0);
                 joints::show(ui, &mut self.session, &mut self.tree);
@@ -182,7 +198,9 @@ impl Viewer {
     }
 
     pub(super) fn show_over_view(&mut self, ui: &Ui, rect: Rect, asked: &mut Asked) {
-        notices::show(ui, rect, &mut self.notices, asked);
+        if notices::show(ui, rect, &mut self.notices, asked) {
+            asked.command(Command::ShowMessages);
+        }
         let hovering = ui.input(|i| !i.raw.hovered_files.is_empty());
         let palette = Palette::in_ui(ui);
         if hovering {
@@ -205,12 +223,27 @@ impl Viewer {
         }
     }
 
+    /// Whether a file is asked for in the window.
+    fn is_choosing(&self) -> bool {
+        #[cfg(not(target_arch = "wasm32"))]
+        return self.dialogs.is_asking();
+        #[cfg(target_arch = "wasm32")]
+        false
+    }
+
     /// Shows the windows over everything. True when one of them has changed by that.
-    pub(super) fn show_windows(&mut self, ctx: &egui::Context) -> bool {
+    pub(super) fn show_windows(&mut self, ctx: &egui::Context, asked: &mut Asked) -> bool {
         self.show_questions(ctx);
+        #[cfg(not(target_arch = "wasm32"))]
+        let was_chosen = self.show_chooser(ctx);
+        #[cfg(target_arch = "wasm32")]
+        let was_chosen = false;
         let help_was_open = self.help_open;
         if self.help_open {
-            self.help_open = help::show(ctx);
+            self.help_open = help::show(ctx, &mut self.help_search, asked);
+        }
+        if self.messages_open {
+            self.messages_open = notices::show_all(ctx, &self.notices);
         }
         let (first, last) = self.session.transport.range();
         let cameras = self.camera_names();
@@ -232,7 +265,7 @@ impl Viewer {
             self.export = export::ExportWindow::Closed;
             return true;
         }
-        answer != export::Answer::None || self.help_open != help_was_open
+        was_chosen || answer != export::Answer::None || self.help_open != help_was_open
     }
 }
 

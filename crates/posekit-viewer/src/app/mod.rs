@@ -2,6 +2,8 @@
 
 mod act;
 mod animate;
+#[cfg(not(target_arch = "wasm32"))]
+mod dialogs;
 mod events;
 mod interpolation;
 mod lab;
@@ -27,6 +29,7 @@ use crate::panels::interpolation::InterpolationPanel;
 use crate::panels::joints::JointTree;
 use crate::panels::library::Preview;
 use crate::panels::pose_library::PosePanel;
+use crate::panels::sides::Sides;
 use crate::panels::text::TextPanel;
 use crate::panels::timeline::Timeline;
 
@@ -70,6 +73,9 @@ pub struct ViewerOptions {
     pub listing: Option<Listing>,
     /// The folder in which scenes are kept that are not saved; with none, they are not.
     pub kept_in: Option<PathBuf>,
+    /// What asks for files.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub dialogs: crate::work::dialog::SystemDialogs,
 }
 
 /// The viewer.
@@ -101,7 +107,11 @@ pub struct Viewer {
     saving: saving::Saving,
     notices: Notices,
     layout: WindowLayout,
+    /// The sides that the window shows, as it was drawn last.
+    sides: Sides,
     help_open: bool,
+    help_search: String,
+    messages_open: bool,
     export: ExportWindow,
     /// Options of the last export, and of one that waits for its file name.
     export_options: ExportOptions,
@@ -118,6 +128,8 @@ pub struct Viewer {
     saved_count: u64,
     #[cfg(not(target_arch = "wasm32"))]
     watch: crate::work::watch::Watch,
+    #[cfg(not(target_arch = "wasm32"))]
+    dialogs: dialogs::Dialogs,
 }
 
 impl Viewer {
@@ -166,7 +178,10 @@ impl Viewer {
             saving: saving::Saving::new(autosave),
             notices: Notices::default(),
             layout: settings.layout,
+            sides: Sides::default(),
             help_open: false,
+            help_search: String::new(),
+            messages_open: false,
             export: ExportWindow::Closed,
             export_options: ExportOptions::default(),
             groups_opened: BTreeSet::new(),
@@ -178,6 +193,12 @@ impl Viewer {
             saved_count: 0,
             #[cfg(not(target_arch = "wasm32"))]
             watch,
+            #[cfg(not(target_arch = "wasm32"))]
+            dialogs: dialogs::Dialogs::new(
+                options.dialogs,
+                settings.asks_in_window,
+                settings.files_in.clone(),
+            ),
         };
         viewer.start(ctx, options);
         #[cfg(not(target_arch = "wasm32"))]
@@ -338,6 +359,14 @@ impl Viewer {
             at_end: self.session.transport.at_end,
             layout: self.layout,
             folder: self.library.folder.clone(),
+            #[cfg(not(target_arch = "wasm32"))]
+            files_in: self.dialogs.folder.clone(),
+            #[cfg(not(target_arch = "wasm32"))]
+            asks_in_window: self.dialogs.asks_in_window,
+            #[cfg(target_arch = "wasm32")]
+            files_in: None,
+            #[cfg(target_arch = "wasm32")]
+            asks_in_window: false,
         }
     }
 
@@ -351,11 +380,13 @@ impl Viewer {
         self.session.follow_changes();
         let mut asked = Asked {
             curves_open: self.layout.curves,
+            #[cfg(not(target_arch = "wasm32"))]
+            asks_in_window: self.dialogs.asks_in_window,
             ..Asked::default()
         };
         self.take_keys(ui, &mut asked);
         self.show_panels(ui, &mut asked);
-        let answered = self.show_windows(&ctx);
+        let answered = self.show_windows(&ctx, &mut asked);
         self.picture_count += 1;
         self.is_current = !answered && asked.is_empty() && self.is_view_current();
         for request in std::mem::take(&mut asked.requests) {

@@ -98,7 +98,7 @@ impl Viewer {
         let parcel = Parcel {
             name: format!("{stem}.{EXTENSION}"),
             kind: "Poses",
-            extension: "toml",
+            extension: EXTENSION,
             bytes: self.poses.write().into(),
         };
         self.hand_over(ctx, Ok(parcel));

@@ -10,11 +10,15 @@ use crate::load::{Input, Purpose};
 use crate::panels::unsaved::{Answer, ask_to_recover, ask_to_save};
 #[cfg(not(target_arch = "wasm32"))]
 use crate::state::animate::place;
+#[cfg(not(target_arch = "wasm32"))]
+use crate::state::chooser::with_ending;
 use crate::state::clip::Source;
 #[cfg(not(target_arch = "wasm32"))]
 use crate::state::notices::NoticeKind;
 use crate::state::session::ClipId;
 use crate::work::autosave::Kept;
+#[cfg(not(target_arch = "wasm32"))]
+use crate::work::dialog::Wanted;
 use crate::work::files;
 
 /// What is about to be closed and not saved.
@@ -89,9 +93,9 @@ impl Viewer {
     }
 
     #[cfg(not(target_arch = "wasm32"))]
-    fn ask_where_to_save(&self, _ctx: &egui::Context, id: ClipId) {
-        let name = self.scene_name(id);
-        files::ask_for_scene_path(self.loader.outbox(), id, name);
+    fn ask_where_to_save(&mut self, _ctx: &egui::Context, clip: ClipId) {
+        let name = self.scene_name(clip);
+        self.ask_for(Wanted::Scene { clip, name });
     }
 
     /// A page's browser knows where files go.
@@ -130,7 +134,7 @@ impl Viewer {
     #[cfg(not(target_arch = "wasm32"))]
     pub fn save_scene_to(&mut self, ctx: &egui::Context, id: ClipId, path: PathBuf) {
         let now = ctx.input(|i| i.time);
-        let path = place::absolute(&with_ending(path));
+        let path = place::absolute(&with_ending(path, &[scene::EXTENSION]));
         match self.write_scene(id, &path) {
             Ok(()) => {
                 let name = path.file_name().unwrap_or_default().to_string_lossy();
@@ -186,17 +190,16 @@ impl Viewer {
         }
     }
 
-    /// A place for a clip's scene was chosen, or none.
-    pub(super) fn take_scene_path(
-        &mut self,
-        ctx: &egui::Context,
-        id: ClipId,
-        path: Option<PathBuf>,
-    ) {
-        match path {
-            Some(path) => self.save_scene_to(ctx, id, path),
-            None => self.saving.after_saving = None,
-        }
+    /// No place for a scene was chosen: what was to be closed after it was saved stays open.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub(super) fn give_up_saving(&mut self) {
+        self.saving.after_saving = None;
+    }
+
+    /// Whether something is closed as soon as it is saved.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub(super) fn closes_after_saving(&self) -> bool {
+        self.saving.after_saving.is_some()
     }
 
     /// Closes a clip, or asks first where something of it is in no file.
@@ -229,6 +232,10 @@ impl Viewer {
             return;
         }
         ctx.send_viewport_cmd(ViewportCommand::CancelClose);
+        // What else was asked for is forgotten: one question at a time.
+        #[cfg(not(target_arch = "wasm32"))]
+        self.dialogs.close();
+        self.saving.after_saving = None;
         self.saving.closing = Some(Closing::Window);
     }
 
@@ -326,16 +333,4 @@ impl Viewer {
             _ => "posekit".to_owned(),
         }
     }
-}
-
-/// A path that says what it is: the ending is added where it is not there.
-#[cfg(not(target_arch = "wasm32"))]
-fn with_ending(path: PathBuf) -> PathBuf {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    if scene::is_scene_name(&name) {
-        return path;
-    }
-    let stem = name.strip_suffix(".toml").unwrap_or(&name);
-    let stem = stem.strip_suffix(".posekit").unwrap_or(stem);
-    path.with_file_name(format!("{stem}.{}", scene::EXTENSION))
 }

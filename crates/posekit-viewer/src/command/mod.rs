@@ -6,6 +6,7 @@
 mod animating;
 mod apply;
 mod bindings;
+mod list;
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 use posekit_render::camera::View;
@@ -13,6 +14,7 @@ use posekit_render::camera::View;
 pub use animating::{ANIMATE_BINDINGS, KeysCommand, TIMELINE_BINDINGS};
 pub use apply::{apply, apply_to_camera};
 pub use bindings::BINDINGS;
+pub use list::{Line, found, lines};
 
 use crate::gizmo::Tool;
 use crate::state::mode::Mode;
@@ -119,6 +121,8 @@ pub enum Command {
     ExportVideo,
     /// This list.
     ToggleHelp,
+    /// All messages.
+    ShowMessages,
     /// The window is for something else.
     Mode(Mode),
     /// The gizmo has other handles.
@@ -178,6 +182,7 @@ impl Command {
                 | Self::ToggleLeft
                 | Self::ToggleRight
                 | Self::ToggleHelp
+                | Self::ShowMessages
                 | Self::Open
                 | Self::OpenFolder
                 | Self::CopyPicture
@@ -202,6 +207,50 @@ pub enum Group {
     Timeline,
     /// Windows and files.
     Window,
+    /// In the arm lab, where a key does something else there.
+    ArmLab,
+    /// In the interpolation lab, where a key does something else there.
+    InterpolationLab,
+    /// While a file is chosen in the window.
+    Chooser,
+}
+
+impl Group {
+    /// All groups, in the order of the list.
+    pub const ALL: [Self; 10] = [
+        Self::Playback,
+        Self::View,
+        Self::Figure,
+        Self::Edit,
+        Self::Animate,
+        Self::Timeline,
+        Self::Window,
+        Self::ArmLab,
+        Self::InterpolationLab,
+        Self::Chooser,
+    ];
+
+    /// Its heading.
+    #[must_use]
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::Playback => "Playback",
+            Self::View => "View",
+            Self::Figure => "Figure",
+            Self::Edit => "Modes and editing",
+            Self::Animate => "Animated clips",
+            Self::Timeline => "Pointer over the timeline",
+            Self::Window => "Window and files",
+            Self::ArmLab => "Arm lab",
+            Self::InterpolationLab => "Interpolation lab",
+            Self::Chooser => "Choosing files in the window",
+        }
+    }
+
+    /// Whether its keys are those of authored motion alone.
+    const fn is_of_animation(self) -> bool {
+        matches!(self, Self::Animate | Self::Timeline)
+    }
 }
 
 /// A key and what it asks for.
@@ -233,8 +282,22 @@ impl Binding {
             key => key,
         };
         let text = KeyboardShortcut::new(self.modifiers, key).format(&names, mac);
-        text.replace("ArrowRight", "\u{2192}")
-            .replace("ArrowLeft", "\u{2190}")
+        // A key is named as it is written on it.
+        let written = [
+            ("ArrowRight", "\u{2192}"),
+            ("ArrowLeft", "\u{2190}"),
+            ("ArrowUp", "\u{2191}"),
+            ("ArrowDown", "\u{2193}"),
+            ("OpenBracket", "["),
+            ("CloseBracket", "]"),
+            ("Period", "."),
+            ("Plus", "+"),
+            ("Minus", "-"),
+            ("Equals", "="),
+            ("Slash", "/"),
+        ];
+        let named = |text: String, (name, sign): (&str, &str)| text.replace(name, sign);
+        written.into_iter().fold(text, named)
     }
 }
 
@@ -245,6 +308,12 @@ pub fn shortcut_of(command: Command, mac: bool) -> Option<String> {
     let mut bindings = all.into_iter().flatten();
     let binding = bindings.find(|binding| binding.command == command)?;
     Some(binding.shortcut_text(mac))
+}
+
+/// Whether keys are named as on a Mac.
+#[must_use]
+pub const fn is_mac() -> bool {
+    cfg!(target_os = "macos")
 }
 
 /// Where keys are pressed: the same key may mean something else there.
@@ -260,6 +329,9 @@ pub enum Place {
 }
 
 impl Place {
+    /// All places.
+    pub const ALL: [Self; 3] = [Self::Anywhere, Self::Animate, Self::Timeline];
+
     /// The keys that are looked for, in that order.
     fn bindings(self) -> impl Iterator<Item = &'static Binding> {
         let own: [&[Binding]; 2] = match self {

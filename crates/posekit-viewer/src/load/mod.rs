@@ -27,6 +27,8 @@ use crate::work::autosave::Kept;
 pub use job::read_clip;
 #[cfg(target_arch = "wasm32")]
 pub(crate) use page::{listing_of, name_at};
+#[cfg(not(target_arch = "wasm32"))]
+pub(crate) use thread::start as in_background;
 
 /// What is to be read.
 #[derive(Clone, Debug)]
@@ -171,8 +173,16 @@ pub enum Event {
         /// Which.
         clip: ClipId,
     },
-    /// Files were chosen in a dialog, or came in another way.
+    /// Files came in another way.
     Chosen(Chosen),
+    /// A dialog of the system was answered, or there was none.
+    #[cfg(not(target_arch = "wasm32"))]
+    Answered {
+        /// What it was for.
+        wanted: Box<crate::work::dialog::Wanted>,
+        /// The answer.
+        answer: crate::work::dialog::Answer,
+    },
     /// Something was written.
     Written {
         /// What, for people.
@@ -186,19 +196,13 @@ pub enum Event {
     Text(Arc<FileText>),
 }
 
-/// What was chosen in a dialog.
+/// Files that came otherwise than by a dialog of the system.
 #[derive(Clone, Debug)]
 pub enum Chosen {
     /// Files to open.
     Inputs(Vec<Input>),
     /// Files that join those on the stage.
     Beside(Vec<Input>),
-    /// A folder to list.
-    Folder(PathBuf),
-    /// Where a video goes.
-    VideoPath(PathBuf),
-    /// Where the scene of a clip goes; `None` when nothing was chosen.
-    ScenePath(ClipId, Option<PathBuf>),
 }
 
 /// The clips that a server offers.

@@ -2,7 +2,7 @@
 
 /// Runs `work` away from the caller.
 #[cfg(not(target_arch = "wasm32"))]
-pub(super) fn start(work: impl FnOnce() + Send + 'static) {
+pub(crate) fn start(work: impl FnOnce() + Send + 'static) {
     // Where no thread can be had, the work is not lost: the window waits for it.
     let work = std::sync::Arc::new(std::sync::Mutex::new(Some(work)));
     let shared = std::sync::Arc::clone(&work);

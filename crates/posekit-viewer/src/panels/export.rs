@@ -43,7 +43,7 @@ pub fn show(
     let mut answer = Answer::None;
     let modal = egui::Modal::new(egui::Id::unique("export"));
     let modal = modal.frame(super::modal_frame(ctx)).show(ctx, |ui| {
-        ui.set_width(380.0);
+        ui.set_width((ctx.content_rect().width() - 48.0).clamp(160.0, 380.0));
         ui.heading("Export a video");
         ui.add_space(3.0 * GAP);
         answer = match window {

@@ -11,6 +11,11 @@ use crate::theme::{GAP, Palette};
 /// Height of a joint's row.
 const JOINT_ROW: f32 = 22.0;
 
+/// On a screen that is touched rows are higher.
+fn row_height(ui: &Ui) -> f32 {
+    JOINT_ROW.max(ui.spacing().interact_size.y - 4.0)
+}
+
 /// Shift of a level of the tree.
 const LEVEL: f32 = 12.0;
 
@@ -53,7 +58,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, tree: &mut JointTree) -> Option<
         .auto_shrink([false, false]);
     area.show(ui, |ui| {
         for (joint, depth) in rows {
-            let size = vec2(ui.available_width(), JOINT_ROW);
+            let size = vec2(ui.available_width(), row_height(ui));
             let place = Rect::from_min_size(ui.next_widget_position(), size);
             if target == Some(joint) {
                 ui.scroll_to_rect(place, None);
@@ -110,12 +115,13 @@ fn joint_row(
     let palette = Palette::in_ui(ui);
     let chosen = session.selection().contains(&joint);
     let name = skeleton.unique_name(joint);
-    let (rect, response) = row::row(ui, JOINT_ROW, chosen, name);
+    let (rect, response) = row::row(ui, row_height(ui), chosen, name);
     let depth = depth.min(16);
     let indent = (0..depth).fold(0.0, |indent, _| indent + LEVEL);
     let left = rect.left() + GAP + indent;
     let has_children = !skeleton.children(joint).is_empty() && tree.filter.trim().is_empty();
-    let arrow = Rect::from_center_size(pos2(left + 6.0, rect.center().y), vec2(16.0, JOINT_ROW));
+    let arrow =
+        Rect::from_center_size(pos2(left + 6.0, rect.center().y), vec2(16.0, rect.height()));
     let on_arrow = has_children
         && response
             .hover_pos()

@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 use egui::{Color32, Rect, RichText, ScrollArea, Ui, pos2, vec2};
 use posekit_render::theme::CharacterColors;
 
-use super::{Asked, Request, row, tip};
+use super::{Asked, Request, elide, row, tip};
 use crate::command::Command;
 use crate::icons::{self, Icon, icon_button, sized_icon};
 use crate::load::{Job, SummaryNumbers};
 use crate::picture::Texture;
 use crate::state::clip::Source;
-use crate::state::library::{EntryState, Library};
+use crate::state::library::{Entry, EntryState, Library};
 use crate::state::session::{ClipId, OpenClip, Session};
 use crate::theme::{GAP, Palette};
 
@@ -57,12 +57,14 @@ pub fn show(
             for job in jobs {
                 reading(ui, job);
             }
+            let names = session.clips().iter().map(|open| open.clip.name.as_str());
+            let common = elide::common_prefix(names);
             for open in session
                 .clips()
                 .iter()
                 .filter(|open| library.passes(&open.clip.name))
             {
-                open_clip(ui, session, open, pictures.get(&open.id), asked);
+                open_clip(ui, session, (open, common), pictures.get(&open.id), asked);
             }
             if session.clips().is_empty() && jobs.is_empty() {
                 row::empty_note(ui, "Nothing is open. Drop a BVH file here.");
@@ -72,7 +74,7 @@ pub fn show(
 }
 
 /// A field to type a filter into.
-pub fn search(ui: &mut Ui, filter: &mut String, hint: &str) {
+pub fn search(ui: &mut Ui, filter: &mut String, hint: &str) -> egui::Response {
     let palette = Palette::in_ui(ui);
     let edit = egui::TextEdit::singleline(filter)
         .hint_text(RichText::new(hint).color(palette.quiet))
@@ -99,6 +101,7 @@ pub fn search(ui: &mut Ui, filter: &mut String, hint: &str) {
         filter.clear();
         response.surrender_focus();
     }
+    response
 }
 
 /// A file that is being read.
@@ -123,7 +126,7 @@ fn reading(ui: &mut Ui, job: &Job) {
 fn open_clip(
     ui: &mut Ui,
     session: &Session,
-    open: &OpenClip,
+    (open, common): (&OpenClip, usize),
     picture: Option<&Texture>,
     asked: &mut Asked,
 ) {
@@ -143,6 +146,7 @@ fn open_clip(
     let swatch = open.shown.then(|| color_of(open.color));
     let texts = Texts {
         name: &clip.name,
+        common,
         below: &numbers,
         picture,
         swatch,
@@ -156,9 +160,9 @@ fn open_clip(
         }
     }
     let response = if clip.report.is_empty() {
-        response
+        response.on_hover_text(&clip.name)
     } else {
-        response.on_hover_text(report_text(clip))
+        response.on_hover_text(format!("{}\n{}", clip.name, report_text(clip)))
     };
     if response.clicked() {
         let adds = ui.input(|i| i.modifiers.shift || i.modifiers.command);
@@ -251,6 +255,8 @@ fn report_text(clip: &crate::state::clip::Clip) -> String {
 /// What a clip's row shows.
 struct Texts<'a> {
     name: &'a str,
+    /// As many bytes of it are those of all names beside it.
+    common: usize,
     below: &'a str,
     picture: Option<&'a Texture>,
     swatch: Option<Color32>,
@@ -274,7 +280,10 @@ fn paint_clip(ui: &Ui, rect: Rect, texts: &Texts<'_>, room_for_buttons: f32) {
             pos2(right.max(left), rect.top() + bottom),
         )
     };
-    row::text_in(ui, line(7.0, 27.0), RichText::new(texts.name), palette.text);
+    let place = line(7.0, 27.0);
+    let font = egui::TextStyle::Body.resolve(ui.style());
+    let name = elide::name_within(ui, texts.name, texts.common, &font, place.width());
+    row::text_in(ui, place, RichText::new(name), palette.text);
     let below = RichText::new(texts.below).small();
     row::text_in(ui, line(26.0, 46.0), below, palette.quiet);
     if let Some(color) = texts.swatch {
@@ -295,7 +304,7 @@ pub fn color_of(index: usize) -> Color32 {
     Color32::from_rgb(r, g, b)
 }
 
-fn folder(ui: &mut Ui, session: &Session, library: &Library<Preview>, asked: &mut Asked) {
+fn folder(ui: &mut Ui, session: &Session, library: &mut Library<Preview>, asked: &mut Asked) {
     let Some(folder) = &library.folder else {
         return;
     };
@@ -305,7 +314,10 @@ fn folder(ui: &mut Ui, session: &Session, library: &Library<Preview>, asked: &mu
         .to_string_lossy()
         .into_owned();
     row::divider(ui);
-    row::heading(ui, &name, |ui| {
+    let room = ui.available_width() - 80.0;
+    let font = egui::FontId::proportional(12.5);
+    let shown = elide::name_within(ui, &name, 0, &font, room);
+    row::heading(ui, &shown, |ui| {
         if icon_button(ui, Icon::Close, "Close the folder").clicked() {
             asked.requests.push(Request::CloseFolder);
         }
@@ -324,62 +336,117 @@ fn folder(ui: &mut Ui, session: &Session, library: &Library<Preview>, asked: &mu
             .iter()
             .any(|open| matches!(&open.clip.source, Source::File(file) if file == path))
     };
-    let listed: Vec<_> = library
-        .entries
-        .iter()
-        .filter(|entry| library.passes(&entry.name) && !is_open(&entry.path))
-        .collect();
     if let Some(shortage) = &library.shortage {
         let warning = Palette::in_ui(ui).warning;
         ui.add(egui::Label::new(RichText::new(shortage).small().color(warning)).wrap());
         ui.add_space(GAP);
     }
-    if listed.is_empty() {
+    let groups = library.groups(|entry| !is_open(&entry.path));
+    if groups.is_empty() {
         row::empty_note(ui, "No clip here passes the filter.");
     }
-    for entry in listed {
-        // Rows that are scrolled away are not worth their text.
-        let next = ui.next_widget_position();
-        let place = Rect::from_min_size(next, vec2(ui.available_width(), CLIP_ROW));
-        if !ui.is_rect_visible(place) {
-            ui.allocate_exact_size(place.size(), egui::Sense::hover());
-            continue;
-        }
-        let (rect, response) = row::row(ui, CLIP_ROW, false, &entry.name);
-        let (below, picture) = match &entry.state {
-            EntryState::Unknown => ("\u{2026}".to_owned(), None),
-            EntryState::Ready(preview) => (
-                format!(
-                    "{}  \u{b7}  {} fps  \u{b7}  {} joints",
-                    duration_text(preview.numbers.duration_secs),
-                    fps_text(preview.numbers.fps),
-                    preview.numbers.joint_count
-                ),
-                Some(&preview.picture),
-            ),
-            EntryState::Refused(why) => (why.clone(), None),
-        };
-        let texts = Texts {
-            name: &entry.name,
-            below: &below,
-            picture,
-            swatch: None,
-        };
-        let is_pointed_at = response.hovered() || response.contains_pointer();
-        let buttons = buttons_of_listed(&entry.path, is_pointed_at);
-        paint_clip(ui, rect, &texts, room_for(buttons.len()));
-        for (slot, (icon, says, on, request)) in buttons.into_iter().enumerate() {
-            if row_button(ui, rect, slot, (icon, says, on), &entry.path).clicked() {
-                asked.requests.push(request);
+    let has_folders = groups.iter().any(|(group, _)| !group.is_empty());
+    let mut toggled = None;
+    for (group, entries) in groups {
+        if has_folders && !group.is_empty() {
+            let is_open = library.is_open(group);
+            if group_row(ui, group, entries.len(), is_open).clicked() {
+                toggled = Some(group.to_owned());
+            }
+            if !is_open {
+                continue;
             }
         }
-        let response = response.on_hover_text(entry.path.display().to_string());
-        if response.clicked() {
-            let beside = ui.input(|i| i.modifiers.shift || i.modifiers.command);
-            asked
-                .requests
-                .push(Request::OpenPath(entry.path.clone(), beside));
+        let common = elide::common_prefix(entries.iter().map(|entry| entry.name.as_str()));
+        for entry in entries {
+            listed(ui, entry, common, asked);
         }
+    }
+    if let Some(group) = toggled {
+        library.toggle(&group);
+    }
+}
+
+/// The heading of a folder in the folder: its files can be put away.
+fn group_row(ui: &mut Ui, group: &str, count: usize, is_open: bool) -> egui::Response {
+    const HEIGHT: f32 = 28.0;
+    let (rect, mut response) = row::row(ui, HEIGHT, false, group);
+    let palette = Palette::in_ui(ui);
+    let sign = Rect::from_center_size(pos2(rect.left() + 12.0, rect.center().y), vec2(12.0, 12.0));
+    let mut painted = response.clone();
+    painted.rect = sign;
+    egui::collapsing_header::paint_default_icon(ui, if is_open { 1.0 } else { 0.0 }, &painted);
+    let count = ui.painter().layout_no_wrap(
+        count.to_string(),
+        egui::TextStyle::Small.resolve(ui.style()),
+        palette.quiet,
+    );
+    let right = rect.right() - GAP - count.size().x;
+    let at = pos2(right, rect.center().y - count.size().y / 2.0);
+    ui.painter().galley(at, count, palette.quiet);
+    let room = Rect::from_min_max(
+        pos2(rect.left() + 24.0, rect.top()),
+        pos2(right - GAP, rect.bottom()),
+    );
+    let font = egui::TextStyle::Body.resolve(ui.style());
+    let text = elide::path_within(ui, group, &font, room.width());
+    row::text_in(ui, room, RichText::new(text).strong(), palette.text);
+    response = response.on_hover_text(if is_open {
+        format!("{group}: put its clips away")
+    } else {
+        format!("{group}: show its clips")
+    });
+    response
+}
+
+/// A clip of the folder that is not open.
+fn listed(ui: &mut Ui, entry: &Entry<Preview>, common: usize, asked: &mut Asked) {
+    // Rows that are scrolled away are not worth their text.
+    let next = ui.next_widget_position();
+    let place = Rect::from_min_size(next, vec2(ui.available_width(), CLIP_ROW));
+    if !ui.is_rect_visible(place) {
+        ui.allocate_exact_size(place.size(), egui::Sense::hover());
+        return;
+    }
+    let (rect, response) = row::row(ui, CLIP_ROW, false, &entry.name);
+    let (below, picture) = match &entry.state {
+        EntryState::Unknown => ("\u{2026}".to_owned(), None),
+        EntryState::Ready(preview) => (
+            format!(
+                "{}  \u{b7}  {} fps  \u{b7}  {} joints",
+                duration_text(preview.numbers.duration_secs),
+                fps_text(preview.numbers.fps),
+                preview.numbers.joint_count
+            ),
+            Some(&preview.picture),
+        ),
+        EntryState::Refused(why) => (why.clone(), None),
+    };
+    let texts = Texts {
+        name: &entry.name,
+        common,
+        below: &below,
+        picture,
+        swatch: None,
+    };
+    let is_pointed_at = response.hovered() || response.contains_pointer();
+    let buttons = buttons_of_listed(&entry.path, is_pointed_at);
+    paint_clip(ui, rect, &texts, room_for(buttons.len()));
+    for (slot, (icon, says, on, request)) in buttons.into_iter().enumerate() {
+        if row_button(ui, rect, slot, (icon, says, on), &entry.path).clicked() {
+            asked.requests.push(request);
+        }
+    }
+    let whole = entry.path.display();
+    let response = match &entry.state {
+        EntryState::Refused(why) => response.on_hover_text(format!("{whole}\n{why}")),
+        EntryState::Unknown | EntryState::Ready(_) => response.on_hover_text(whole.to_string()),
+    };
+    if response.clicked() {
+        let beside = ui.input(|i| i.modifiers.shift || i.modifiers.command);
+        asked
+            .requests
+            .push(Request::OpenPath(entry.path.clone(), beside));
     }
 }
 

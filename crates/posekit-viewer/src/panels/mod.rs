@@ -2,8 +2,11 @@
 //! the application's.
 
 pub mod arm_lab;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod chooser;
 pub mod curves;
 pub mod edit;
+pub mod elide;
 pub mod export;
 pub mod help;
 pub mod ik;
@@ -16,6 +19,7 @@ pub mod pose_library;
 pub mod reading;
 pub mod row;
 pub mod scene;
+pub mod sides;
 pub mod text;
 pub mod things;
 pub mod timeline;
@@ -55,6 +59,9 @@ pub enum Request {
     Reload(ClipId),
     /// The active clip becomes an authored one.
     Author(Start),
+    /// Files are asked for in the window, or by the system.
+    #[cfg(not(target_arch = "wasm32"))]
+    AskInWindow(bool),
 }
 
 /// What panels ask for while they are shown.
@@ -66,6 +73,8 @@ pub struct Asked {
     pub requests: Vec<Request>,
     /// Whether the curves are open, for the button that opens them.
     pub curves_open: bool,
+    /// Whether files are asked for in the window, for the menu that chooses it.
+    pub asks_in_window: bool,
 }
 
 impl Asked {
@@ -102,5 +111,11 @@ pub fn stay_open(
 
 /// The frame of a window over everything.
 pub fn modal_frame(ctx: &egui::Context) -> egui::Frame {
-    egui::Frame::window(&ctx.global_style()).inner_margin(egui::Margin::same(24))
+    // On a phone the contents need the room.
+    let margin = if ctx.content_rect().width() < 600.0 {
+        12
+    } else {
+        24
+    };
+    egui::Frame::window(&ctx.global_style()).inner_margin(egui::Margin::same(margin))
 }

@@ -1,59 +1,176 @@
-//! Notices over the view: what was done, what did not work, what has changed on disk.
+//! Notices over the view: what was done, what did not work, what has changed on disk; and all of them, to be
+//! looked up.
 
-use egui::{Align2, Frame, Margin, RichText, Stroke, Ui, Vec2};
+use egui::text::TextWrapping;
+use egui::{
+    Align, Align2, Frame, Label, Layout, Margin, RichText, ScrollArea, Stroke, Ui, Vec2, vec2,
+};
 
 use super::{Asked, Request};
-use crate::icons::{Icon, sized_icon};
-use crate::state::notices::{NoticeKind, Notices};
+use crate::icons::{Icon, icon_button, sized_icon};
+use crate::state::notices::{Notice, NoticeKind, Notices};
 use crate::theme::{GAP, Palette};
 
-/// Shows the notices at the top of a part of the window.
-pub fn show(ui: &Ui, over: egui::Rect, notices: &mut Notices, asked: &mut Asked) {
+/// A notice is this wide where there is room.
+const WIDTH: f32 = 460.0;
+
+/// Longer messages end in an ellipsis; the whole is in the list of all.
+const MOST_LINES: usize = 3;
+
+/// What lies under the notices at the bottom of the view: the line that says what the pointer does.
+const HINT_ROOM: f32 = 40.0;
+
+/// Shows the notices at the bottom of a part of the window, over the line that says what the pointer does: what
+/// is at its top can be clicked. True when all are asked for.
+pub fn show(ui: &Ui, over: egui::Rect, notices: &mut Notices, asked: &mut Asked) -> bool {
+    if notices.shown().is_empty() {
+        return false;
+    }
     let mut dismissed = None;
-    let palette = Palette::in_ui(ui);
+    let mut wants_all = false;
+    let width = WIDTH.min(over.width() - 4.0 * GAP);
+    if width < 120.0 {
+        return false;
+    }
     egui::Area::new(egui::Id::unique("notices"))
-        .order(egui::Order::Foreground)
-        .pivot(Align2::CENTER_TOP)
-        .fixed_pos(over.center_top() + Vec2::new(0.0, 14.0))
+        .order(egui::Order::Middle)
+        .pivot(Align2::CENTER_BOTTOM)
+        .fixed_pos(over.center_bottom() - Vec2::new(0.0, HINT_ROOM))
+        .constrain_to(over)
         .show(ui.ctx(), |ui| {
-            ui.set_max_width((over.width() - 40.0).clamp(200.0, 560.0));
-            for (index, notice) in notices.shown().iter().enumerate() {
-                let color = match notice.kind {
-                    NoticeKind::Done => palette.good,
-                    NoticeKind::Failure => palette.error,
-                    NoticeKind::Changed(_) => palette.accent,
+            ui.spacing_mut().item_spacing.y = GAP;
+            ui.set_width(width);
+            let unseen = notices.unseen();
+            if unseen > 0 {
+                let text = match unseen {
+                    1 => "1 earlier message: show all".to_owned(),
+                    count => format!("{count} earlier messages: show all"),
                 };
-                Frame::new()
-                    .fill(palette.raised)
-                    .stroke(Stroke::new(1.0, palette.line))
-                    .corner_radius(8)
-                    .inner_margin(Margin::symmetric(12, 8))
-                    .shadow(ui.visuals().popup_shadow)
-                    .show(ui, |ui| {
-                        ui.horizontal(|ui| {
-                            let (dot, _) =
-                                ui.allocate_exact_size(Vec2::splat(10.0), egui::Sense::hover());
-                            ui.painter().circle_filled(dot.center(), 4.0, color);
-                            let room = (over.width() - 260.0).clamp(160.0, 440.0);
-                            ui.scope(|ui| {
-                                ui.set_max_width(room);
-                                ui.add(egui::Label::new(RichText::new(&notice.text)).wrap());
-                            });
-                            if let NoticeKind::Changed(clip) = notice.kind
-                                && ui.button("Reload").clicked()
-                            {
-                                asked.requests.push(Request::Reload(clip));
-                            }
-                            let size = Vec2::splat(22.0);
-                            if sized_icon(ui, Icon::Close, "Dismiss", false, size).clicked() {
-                                dismissed = Some(index);
-                            }
-                        });
-                    });
-                ui.add_space(GAP);
+                card(ui, width, |ui| {
+                    let link = ui.link(RichText::new(text).small());
+                    wants_all = link.clicked();
+                });
+            }
+            for (index, notice) in notices.shown().iter().enumerate() {
+                card(ui, width, |ui| {
+                    if message(ui, notice, asked) {
+                        dismissed = Some(index);
+                    }
+                });
             }
         });
     if let Some(index) = dismissed {
         notices.dismiss(index);
     }
+    if wants_all {
+        notices.set_seen();
+    }
+    wants_all
+}
+
+fn card(ui: &mut Ui, width: f32, contents: impl FnOnce(&mut Ui)) {
+    let palette = Palette::in_ui(ui);
+    Frame::new()
+        .fill(palette.raised)
+        .stroke(Stroke::new(1.0, palette.line))
+        .corner_radius(8)
+        .inner_margin(Margin::symmetric(10, 6))
+        .show(ui, |ui| {
+            ui.set_width(width - 22.0);
+            ui.horizontal(contents);
+        });
+}
+
+/// A message with what can be done about it. True when it is dismissed.
+fn message(ui: &mut Ui, notice: &Notice, asked: &mut Asked) -> bool {
+    let mut is_dismissed = false;
+    dot(ui, notice);
+    // From the right, so that what is left for the text is known.
+    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        is_dismissed = sized_icon(ui, Icon::Close, "Dismiss", false, Vec2::splat(24.0)).clicked();
+        if let NoticeKind::Changed(clip) = notice.kind
+            && ui.button("Reload").clicked()
+        {
+            asked.requests.push(Request::Reload(clip));
+        }
+        if notice.count > 1 {
+            let text = format!("\u{d7}{}", notice.count);
+            let label = ui.label(RichText::new(text).color(Palette::in_ui(ui).quiet));
+            label.on_hover_text(format!("Said {} times", notice.count));
+        }
+        let room = vec2(ui.available_width(), 24.0);
+        let layout = Layout::left_to_right(Align::Center);
+        ui.allocate_ui_with_layout(room, layout, |ui| {
+            ui.set_min_width(room.x);
+            let text = egui::WidgetText::from(notice.text.as_str());
+            let mut job = std::sync::Arc::unwrap_or_clone(text.into_layout_job(
+                ui.style(),
+                egui::FontSelection::Default,
+                Align::Min,
+            ));
+            job.wrap = TextWrapping {
+                max_width: room.x,
+                max_rows: MOST_LINES,
+                ..TextWrapping::default()
+            };
+            let galley = ui.fonts_mut(|fonts| fonts.layout_job(job));
+            let is_cut = galley.elided;
+            let label = ui.add(Label::new(galley));
+            if is_cut {
+                label.on_hover_text(&notice.text);
+            }
+        });
+    });
+    is_dismissed
+}
+
+fn dot(ui: &mut Ui, notice: &Notice) {
+    let palette = Palette::in_ui(ui);
+    let color = match notice.kind {
+        NoticeKind::Done => palette.good,
+        NoticeKind::Failure => palette.error,
+        NoticeKind::Changed(_) => palette.accent,
+    };
+    let (dot, _) = ui.allocate_exact_size(Vec2::splat(10.0), egui::Sense::hover());
+    ui.painter().circle_filled(dot.center(), 4.0, color);
+}
+
+/// Shows all messages in a window of their own, the last first. False when it was closed.
+pub fn show_all(ctx: &egui::Context, notices: &Notices) -> bool {
+    let mut open = true;
+    let screen = ctx.content_rect();
+    let modal = egui::Modal::new(egui::Id::unique("messages"));
+    let modal = modal.frame(super::modal_frame(ctx)).show(ctx, |ui| {
+        ui.set_width((screen.width() - 64.0).clamp(160.0, 620.0));
+        ui.horizontal(|ui| {
+            ui.heading("Messages");
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                if icon_button(ui, Icon::Close, "Close  (Esc)").clicked() {
+                    open = false;
+                }
+            });
+        });
+        ui.add_space(GAP);
+        let height = (screen.height() - 140.0).max(80.0);
+        let area = ScrollArea::vertical()
+            .auto_shrink([false, true])
+            .max_height(height)
+            .min_scrolled_height(height.min(240.0));
+        area.show(ui, |ui| {
+            for notice in notices.all().iter().rev() {
+                ui.horizontal_top(|ui| {
+                    dot(ui, notice);
+                    let text = match notice.count {
+                        1 => notice.text.clone(),
+                        count => format!("{} (\u{d7}{count})", notice.text),
+                    };
+                    ui.add(Label::new(text).wrap().selectable(true));
+                });
+            }
+            if notices.all().is_empty() {
+                super::row::empty_note(ui, "Nothing was said yet.");
+            }
+        });
+    });
+    open && !modal.should_close()
 }

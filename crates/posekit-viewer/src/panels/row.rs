@@ -90,6 +90,31 @@ pub fn segments(
     });
 }
 
+/// Two groups of controls: beside each other where there is room, and otherwise under each other.
+pub fn rows<C>(
+    ui: &mut Ui,
+    has_room: bool,
+    context: &mut C,
+    [first, second]: [fn(&mut Ui, &mut C); 2],
+) {
+    if has_room {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = GAP;
+            first(ui, context);
+            second(ui, context);
+        });
+        return;
+    }
+    ui.vertical(|ui| {
+        for part in [first, second] {
+            ui.horizontal(|ui| {
+                ui.spacing_mut().item_spacing.x = GAP;
+                part(ui, context);
+            });
+        }
+    });
+}
+
 /// The well that segments lie in.
 pub fn well(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
     let well = egui::Frame::NONE
@@ -138,7 +163,8 @@ pub fn undo_buttons(ui: &mut Ui, (undo, redo): (Step, Step), height: f32, asked:
                 Step::Named(name) => tip(&format!("{verb}: {name}"), command),
                 Step::None | Step::Unnamed => tip(verb, command),
             };
-            if sized_icon(ui, icon, &says, false, vec2(26.0, height)).clicked() {
+            let height = height.max(ui.spacing().interact_size.y);
+            if sized_icon(ui, icon, &says, false, vec2(height.max(26.0), height)).clicked() {
                 asked.command(command);
             }
         });
@@ -147,12 +173,12 @@ pub fn undo_buttons(ui: &mut Ui, (undo, redo): (Step, Step), height: f32, asked:
 
 /// One of several beside each other.
 pub fn segment(ui: &mut Ui, name: &str, chosen: bool) -> Response {
-    const HEIGHT: f32 = 22.0;
+    let height = ui.spacing().interact_size.y - 2.0;
     let palette = Palette::in_ui(ui);
     let font = egui::TextStyle::Button.resolve(ui.style());
     let color = if chosen { palette.accent } else { palette.text };
     let galley = ui.painter().layout_no_wrap(name.to_owned(), font, color);
-    let size = vec2(galley.size().x + 5.0 * GAP, HEIGHT);
+    let size = vec2(galley.size().x + 5.0 * GAP, height);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     response
         .widget_info(|| egui::WidgetInfo::selected(egui::Role::RadioButton, true, chosen, name));

@@ -4,8 +4,9 @@ use egui::containers::menu::MenuButton;
 use egui::{Align, Button, Layout, RichText, Ui};
 use posekit_render::camera::View;
 
+use super::sides::Sides;
 use super::{Asked, row, stay_open, tip};
-use crate::command::{Command, shortcut_of};
+use crate::command::{Command, is_mac, shortcut_of};
 use crate::icons::{Icon, icon_button, toggle_icon};
 use crate::state::display::{
     Compare, Display, FollowMode, Look, PoseShown, Style, TRAIL_SECS_RANGE,
@@ -14,45 +15,59 @@ use crate::state::mode::Mode;
 use crate::state::session::Session;
 use crate::theme::{GAP, Palette};
 
-/// Which sides are open, for the buttons that open them.
-#[derive(Clone, Copy, Debug)]
-pub struct Sides {
-    /// Clips and joints.
-    pub left: bool,
-    /// The inspector.
-    pub right: bool,
-}
-
 /// The bar has the program's name in it where at least this much is left.
-const NAME_ROOM: f32 = 600.0;
+const NAME_ROOM: f32 = 1000.0;
+
+/// All modes stand beside each other where at least this much is left.
+const MODES_ROOM: f32 = 860.0;
+
+/// The menus stand beside each other where at least this much is left.
+const MENUS_ROOM: f32 = 560.0;
 
 /// Shows the bar.
 pub fn show(ui: &mut Ui, session: &mut Session, sides: Sides, asked: &mut Asked) {
     ui.horizontal_centered(|ui| {
         ui.spacing_mut().item_spacing.x = GAP;
+        let room = ui.available_width();
         let left = tip("Clips and joints", Command::ToggleLeft);
         if toggle_icon(ui, Icon::SideLeft, &left, sides.left).clicked() {
             asked.command(Command::ToggleLeft);
         }
-        ui.add_space(GAP);
-        // On a phone the menus need the room.
-        if ui.available_width() >= NAME_ROOM {
+        if room >= NAME_ROOM {
+            ui.add_space(GAP);
             ui.label(RichText::new("posekit").strong().size(15.0));
             ui.add_space(2.0 * GAP);
         }
-        file_menu(ui, session, asked);
-        view_menu(ui, session, asked);
-        if !session.mode().is_lab() {
-            style_choice(ui, session);
-            figure_menu(ui, session, asked);
-            rest_button(ui, session, asked);
+        if room >= MENUS_ROOM {
+            menus(ui, session, asked);
+        } else {
+            // On a phone one menu holds them all.
+            let button = Button::new("Menu").frame_when_inactive(false);
+            stay_open(MenuButton::from_button(button)).ui(ui, |ui| {
+                ui.set_width(180.0);
+                menus(ui, session, asked);
+            });
         }
-        ui.add_space(3.0 * GAP);
-        modes(ui, session, asked);
+        if room >= MODES_ROOM {
+            ui.add_space(3.0 * GAP);
+            modes(ui, session, asked);
+        } else {
+            mode_choice(ui, session, asked);
+        }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             right_buttons(ui, session, sides, asked);
         });
     });
+}
+
+fn menus(ui: &mut Ui, session: &mut Session, asked: &mut Asked) {
+    file_menu(ui, session, asked);
+    view_menu(ui, session, asked);
+    if !session.mode().is_lab() {
+        style_choice(ui, session);
+        figure_menu(ui, session, asked);
+        rest_button(ui, session, asked);
+    }
 }
 
 /// What the window is for: one of several, beside each other.
@@ -62,6 +77,27 @@ fn modes(ui: &mut Ui, session: &Session, asked: &mut Asked) {
         (command, mode.name(), tip(mode.says(), command))
     });
     row::segments(ui, Command::Mode(session.mode()), &options, asked);
+}
+
+/// The same as a menu, where there is less room.
+fn mode_choice(ui: &mut Ui, session: &Session, asked: &mut Asked) {
+    let name = session.mode().name();
+    let button = Button::new(RichText::new(name).color(Palette::in_ui(ui).accent));
+    let (response, _) = MenuButton::from_button(button).ui(ui, |ui| {
+        ui.set_width(200.0);
+        for mode in Mode::ALL {
+            let chosen = session.mode() == mode;
+            let keys = shortcut_of(Command::Mode(mode), is_mac()).unwrap_or_default();
+            let quiet = Palette::in_ui(ui).quiet;
+            let button = Button::selectable(chosen, mode.name())
+                .shortcut_text(RichText::new(keys).small().color(quiet));
+            if ui.add(button).on_hover_text(mode.says()).clicked() {
+                asked.command(Command::Mode(mode));
+                ui.close();
+            }
+        }
+    });
+    response.on_hover_text("What the window is for");
 }
 
 fn right_buttons(ui: &mut Ui, session: &Session, sides: Sides, asked: &mut Asked) {
@@ -93,7 +129,7 @@ fn menu(ui: &mut Ui, text: &str, contents: impl FnOnce(&mut Ui)) {
 
 /// A line of a menu with its key.
 fn item(ui: &mut Ui, says: &str, command: Command, asked: &mut Asked) {
-    let keys = shortcut_of(command, cfg!(target_os = "macos")).unwrap_or_default();
+    let keys = shortcut_of(command, is_mac()).unwrap_or_default();
     let quiet = Palette::in_ui(ui).quiet;
     let keys = RichText::new(keys).small().color(quiet);
     if ui
@@ -130,7 +166,22 @@ fn file_menu(ui: &mut Ui, session: &Session, asked: &mut Asked) {
         ui.separator();
         item(ui, "Copy the picture", Command::CopyPicture, asked);
         item(ui, "Save the picture\u{2026}", Command::SavePicture, asked);
+        ui.separator();
+        item(ui, "Messages\u{2026}", Command::ShowMessages, asked);
+        #[cfg(not(target_arch = "wasm32"))]
+        dialog_choice(ui, asked);
     });
+}
+
+/// Whether files are asked for by the system, or by the window's own chooser.
+#[cfg(not(target_arch = "wasm32"))]
+fn dialog_choice(ui: &mut Ui, asked: &mut Asked) {
+    let mut in_window = asked.asks_in_window;
+    let says = "Ask for files by posekit's own chooser instead of the system's dialogs";
+    let check = ui.checkbox(&mut in_window, "Choose files in this window");
+    if check.on_hover_text(says).changed() {
+        asked.requests.push(super::Request::AskInWindow(in_window));
+    }
 }
 
 fn view_menu(ui: &mut Ui, session: &mut Session, asked: &mut Asked) {
@@ -269,7 +320,7 @@ fn trails_and_ghosts(ui: &mut Ui, display: &mut Display, mode: Mode) {
 }
 
 fn check(ui: &mut Ui, value: &mut bool, says: &str, command: Command) {
-    let keys = shortcut_of(command, cfg!(target_os = "macos")).unwrap_or_default();
+    let keys = shortcut_of(command, is_mac()).unwrap_or_default();
     ui.horizontal(|ui| {
         ui.checkbox(value, says);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {

@@ -21,6 +21,9 @@ const LINE_HEIGHT: f32 = 34.0;
 /// Where less than this is left, as on a phone, the clock shows the time alone.
 const CLOCK_ROOM: f32 = 420.0;
 
+/// Under this width, that of an upright phone, the buttons have a line of their own.
+const TWO_LINES: f32 = 440.0;
+
 /// What the range's fields take.
 const RANGE_ROOM: f32 = 150.0;
 
@@ -40,30 +43,45 @@ pub fn show(ui: &mut Ui, session: &mut Session, asked: &mut Asked) -> Rect {
         ui.add_space(GAP);
         track
     };
+    let is_narrow = ui.available_width() < TWO_LINES;
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = GAP;
         buttons(ui, session, asked);
+        if is_narrow {
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                curves_button(ui, asked);
+            });
+            return;
+        }
         ui.add_space(2.0 * GAP);
         clock(ui, &session.transport);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            if toggle_icon(
-                ui,
-                Icon::Curves,
-                &tip("Curves", Command::ToggleCurves),
-                asked.curves_open,
-            )
-            .clicked()
-            {
-                asked.command(Command::ToggleCurves);
-            }
+            curves_button(ui, asked);
             speed(ui, &mut session.transport);
             if ui.available_width() >= RANGE_ROOM {
                 range(ui, &mut session.transport);
             }
         });
     });
+    if is_narrow {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = GAP;
+            clock(ui, &session.transport);
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                speed(ui, &mut session.transport);
+                range(ui, &mut session.transport);
+            });
+        });
+    }
     ui.add_space(GAP);
     track
+}
+
+fn curves_button(ui: &mut Ui, asked: &mut Asked) {
+    let says = tip("Curves", Command::ToggleCurves);
+    if toggle_icon(ui, Icon::Curves, &says, asked.curves_open).clicked() {
+        asked.command(Command::ToggleCurves);
+    }
 }
 
 fn buttons(ui: &mut Ui, session: &Session, asked: &mut Asked) {

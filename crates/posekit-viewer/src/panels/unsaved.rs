@@ -53,7 +53,7 @@ fn ask(
     let mut answer = Answer::None;
     let modal = egui::Modal::new(egui::Id::unique("unsaved"));
     let shown = modal.frame(super::modal_frame(ctx)).show(ctx, |ui| {
-        ui.set_width(380.0);
+        ui.set_width((ctx.content_rect().width() - 48.0).clamp(160.0, 380.0));
         ui.heading(title);
         ui.add_space(GAP);
         let palette = Palette::in_ui(ui);
@@ -63,7 +63,7 @@ fn ask(
             ui.label(RichText::new(format!("\u{2022}  {name}")));
         }
         ui.add_space(3.0 * GAP);
-        ui.horizontal(|ui| {
+        ui.horizontal_wrapped(|ui| {
             let [yes, no, later] = answers;
             let yes = Button::new(RichText::new(yes).color(palette.accent).strong());
             if ui.add(yes).clicked() {

@@ -1,5 +1,6 @@
 //! The library: the clips of a folder that are not open, and the filter over everything listed.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// A file of the folder.
@@ -9,6 +10,8 @@ pub struct Entry<T> {
     pub path: PathBuf,
     /// Its name, without the folder.
     pub name: String,
+    /// The folder that it is in, as seen from the folder that is listed; empty for that one itself.
+    pub group: String,
     /// What is known of it.
     pub state: EntryState<T>,
 }
@@ -29,10 +32,12 @@ pub enum EntryState<T> {
 pub struct Library<T> {
     /// The folder.
     pub folder: Option<PathBuf>,
-    /// Its files, by name.
+    /// Its files, those of one folder in it beside each other.
     pub entries: Vec<Entry<T>>,
     /// What is in the folder and not among them, for people.
     pub shortage: Option<String>,
+    /// The folders in it whose files are not shown.
+    closed: BTreeSet<String>,
     /// What was typed to filter by.
     pub filter: String,
 }
@@ -43,6 +48,7 @@ impl<T> Default for Library<T> {
             folder: None,
             entries: Vec::new(),
             shortage: None,
+            closed: BTreeSet::new(),
             filter: String::new(),
         }
     }
@@ -50,25 +56,63 @@ impl<T> Default for Library<T> {
 
 impl<T> Library<T> {
     /// Lists another folder's files.
-    pub fn list(&mut self, folder: PathBuf, mut paths: Vec<PathBuf>) {
-        paths.sort();
+    pub fn list(&mut self, folder: PathBuf, paths: Vec<PathBuf>) {
         let named = |path: PathBuf| {
-            let name = path.file_name().unwrap_or_default().to_string_lossy();
-            (path.clone(), name.into_owned())
+            let below = path.strip_prefix(&folder).unwrap_or(&path);
+            let parts: Vec<_> = below.iter().map(|part| part.to_string_lossy()).collect();
+            let name = parts.join("/");
+            (path, name)
         };
-        self.list_named(folder, paths.into_iter().map(named).collect());
+        let mut files: Vec<(PathBuf, String)> = paths.into_iter().map(named).collect();
+        // The files of the folder itself before those of folders in it.
+        files.sort_by(|a, b| parts_of(&a.1).cmp(&parts_of(&b.1)));
+        self.list_named(folder, files);
     }
 
-    /// Lists files, in this order, under names that they were given.
+    /// Lists files, in this order, under names that they were given; in those, folders may stand before `/`.
     pub fn list_named(&mut self, folder: PathBuf, files: Vec<(PathBuf, String)>) {
-        let entry = |(path, name)| Entry {
-            path,
-            name,
-            state: EntryState::Unknown,
+        let entry = |(path, whole): (PathBuf, String)| {
+            let (group, name) = parts_of(&whole);
+            Entry {
+                path,
+                name: name.to_owned(),
+                group: group.to_owned(),
+                state: EntryState::Unknown,
+            }
         };
         self.entries = files.into_iter().map(entry).collect();
         self.shortage = None;
+        self.closed.clear();
         self.folder = Some(folder);
+    }
+
+    /// The files that pass the filter and a test, folder by folder, in their order.
+    pub fn groups(&self, is_listed: impl Fn(&Entry<T>) -> bool) -> Vec<(&str, Vec<&Entry<T>>)> {
+        let mut groups: Vec<(&str, Vec<&Entry<T>>)> = Vec::new();
+        for entry in self.entries.iter().filter(|entry| is_listed(entry)) {
+            let whole = format!("{}/{}", entry.group, entry.name);
+            if !self.passes(&whole) {
+                continue;
+            }
+            match groups.iter_mut().find(|group| group.0 == entry.group) {
+                Some(group) => group.1.push(entry),
+                None => groups.push((&entry.group, vec![entry])),
+            }
+        }
+        groups
+    }
+
+    /// Whether the files of a folder in it are shown. While a filter is typed all are that pass it.
+    #[must_use]
+    pub fn is_open(&self, group: &str) -> bool {
+        !self.filter.trim().is_empty() || !self.closed.contains(group)
+    }
+
+    /// Shows the files of a folder in it, or no longer.
+    pub fn toggle(&mut self, group: &str) {
+        if !self.closed.remove(group) {
+            self.closed.insert(group.to_owned());
+        }
     }
 
     /// Lists no folder.
@@ -97,6 +141,11 @@ impl<T> Library<T> {
     pub fn passes(&self, name: &str) -> bool {
         matches(&self.filter, name)
     }
+}
+
+/// The folder and the name in a path whose parts are parted by `/`.
+fn parts_of(whole: &str) -> (&str, &str) {
+    whole.rsplit_once('/').unwrap_or(("", whole))
 }
 
 /// Whether every word of a filter is somewhere in a name, in any case and order.
@@ -178,6 +227,54 @@ mod tests {
         library.set_state(Path::new("clips/b.bvh"), EntryState::Ready(7));
         library.set_state(Path::new("clips/elsewhere.bvh"), EntryState::Ready(9));
         assert_eq!(library.unknown_count(), 1);
+    }
+
+    #[test]
+    fn files_of_one_folder_stand_together_and_can_be_closed() {
+        let mut library = Library::<u8>::default();
+        let paths = [
+            "c/z.bvh",
+            "c/b/a.bvh",
+            "c/a/y.bvh",
+            "c/a/x.bvh",
+            "c/a.b/q.bvh",
+        ];
+        library.list("c".into(), paths.map(PathBuf::from).to_vec());
+        let groups = |library: &Library<u8>| -> Vec<(String, Vec<String>)> {
+            let groups = library.groups(|_| true).into_iter();
+            let names = |entries: Vec<&Entry<u8>>| entries.iter().map(|e| e.name.clone()).collect();
+            groups
+                .map(|(group, entries)| (group.to_owned(), names(entries)))
+                .collect()
+        };
+        let group = |name: &str, files: &[&str]| {
+            (
+                name.to_owned(),
+                files
+                    .iter()
+                    .map(|file| (*file).to_owned())
+                    .collect::<Vec<_>>(),
+            )
+        };
+        let all = [
+            group("", &["z.bvh"]),
+            group("a", &["x.bvh", "y.bvh"]),
+            group("a.b", &["q.bvh"]),
+            group("b", &["a.bvh"]),
+        ];
+        assert_eq!(groups(&library), all);
+        library.toggle("a");
+        assert!(!library.is_open("a") && library.is_open("b"));
+        library.filter = "a/".to_owned();
+        assert!(library.is_open("a"), "what a filter finds is shown");
+        assert_eq!(groups(&library), [all[1].clone()]);
+        library.filter.clear();
+        library.toggle("a");
+        assert!(library.is_open("a"));
+        // A server's names say folders, too.
+        let files = vec![(PathBuf::from("clips/d/e.bvh"), "d/e.bvh".to_owned())];
+        library.list_named("server".into(), files);
+        assert_eq!(groups(&library), [group("d", &["e.bvh"])]);
     }
 
     #[test]

@@ -3,6 +3,8 @@
 pub mod animate;
 pub mod arm;
 pub mod camera;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod chooser;
 pub mod clip;
 pub mod curves;
 pub mod display;

@@ -19,6 +19,10 @@ pub struct Settings {
     pub layout: WindowLayout,
     /// The folder of the library.
     pub folder: Option<std::path::PathBuf>,
+    /// The folder in which a file was chosen last.
+    pub files_in: Option<std::path::PathBuf>,
+    /// Files are asked for in the window, although the system may have dialogs.
+    pub asks_in_window: bool,
 }
 
 /// Which parts of the window are open.

@@ -1,4 +1,4 @@
-//! Files in and out: dialogs, and what is written.
+//! Files that go out: what is written, and how.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ pub struct Parcel {
     pub name: String,
     /// What kind of file it is, for the dialog.
     pub kind: &'static str,
-    /// The extension, without the dot.
+    /// How its name ends, without the dot.
     pub extension: &'static str,
     /// The bytes.
     pub bytes: Arc<[u8]>,
@@ -97,128 +97,29 @@ pub fn stem_of(name: &str) -> String {
     }
 }
 
+/// Writes a file beside its place and renames it into it: a failure leaves the old one whole.
+///
+/// # Errors
+/// Those of the file system, and of `write`.
 #[cfg(not(target_arch = "wasm32"))]
-pub use desktop::{
-    ask_for_files, ask_for_folder, ask_for_scene_path, ask_for_video_path, hand_over, write_beside,
-};
-
-#[cfg(not(target_arch = "wasm32"))]
-mod desktop {
-    //! Dialogs of the system, each on a thread of its own.
-
-    use std::io::Write;
-    use std::path::Path;
-
-    use super::Parcel;
-    use crate::load::{Chosen, Event, Input, Outbox};
-    use crate::state::session::ClipId;
-
-    /// Asks for files to open.
-    pub fn ask_for_files(outbox: &Outbox) {
-        in_thread(outbox, |outbox| {
-            let dialog = rfd::FileDialog::new()
-                .set_title("Open motion files")
-                .add_filter(
-                    "Motion, scenes and robots",
-                    &["bvh", "BVH", "posekit.toml", "toml", "urdf", "URDF"],
-                );
-            if let Some(paths) = dialog.pick_files() {
-                let inputs = paths.into_iter().map(Input::Path).collect();
-                outbox.send(Event::Chosen(Chosen::Inputs(inputs)));
-            }
+pub fn write_beside<E: From<std::io::Error>>(
+    path: &std::path::Path,
+    write: impl FnOnce(&mut std::io::BufWriter<std::fs::File>) -> Result<(), E>,
+) -> Result<(), E> {
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(format!(".{}.tmp", std::process::id()));
+    let beside = path.with_file_name(name);
+    let outcome = std::fs::File::create(&beside)
+        .map_err(E::from)
+        .and_then(|file| {
+            let mut file = std::io::BufWriter::new(file);
+            write(&mut file)?;
+            std::io::Write::flush(&mut file).map_err(E::from)
         });
+    let outcome = outcome.and_then(|()| std::fs::rename(&beside, path).map_err(E::from));
+    if outcome.is_err() {
+        // What is left of it is of no use; that it cannot be removed either is no news.
+        drop(std::fs::remove_file(&beside));
     }
-
-    /// Asks for a folder to list.
-    pub fn ask_for_folder(outbox: &Outbox) {
-        in_thread(outbox, |outbox| {
-            let dialog = rfd::FileDialog::new().set_title("Open a folder of motion files");
-            if let Some(folder) = dialog.pick_folder() {
-                outbox.send(Event::Chosen(Chosen::Folder(folder)));
-            }
-        });
-    }
-
-    /// Asks where a video goes.
-    pub fn ask_for_video_path(outbox: &Outbox, name: String, extension: &'static str) {
-        in_thread(outbox, move |outbox| {
-            let dialog = rfd::FileDialog::new()
-                .set_title("Export a video")
-                .set_file_name(name)
-                .add_filter("Video", &[extension]);
-            if let Some(path) = dialog.save_file() {
-                outbox.send(Event::Chosen(Chosen::VideoPath(path)));
-            }
-        });
-    }
-
-    /// Asks where the scene of a clip goes.
-    pub fn ask_for_scene_path(outbox: &Outbox, clip: ClipId, name: String) {
-        in_thread(outbox, move |outbox| {
-            let dialog = rfd::FileDialog::new()
-                .set_title("Save the scene")
-                .set_file_name(name)
-                .add_filter("posekit scene", &["posekit.toml", "toml"]);
-            let path = dialog.save_file();
-            outbox.send(Event::Chosen(Chosen::ScenePath(clip, path)));
-        });
-    }
-
-    /// Asks where a file goes, and writes it.
-    pub fn hand_over(outbox: &Outbox, parcel: Parcel) {
-        in_thread(outbox, move |outbox| {
-            let dialog = rfd::FileDialog::new()
-                .set_title("Save")
-                .set_file_name(&parcel.name)
-                .add_filter(parcel.kind, &[parcel.extension]);
-            let Some(path) = dialog.save_file() else {
-                return;
-            };
-            let written = write_beside(&path, |file| file.write_all(&parcel.bytes));
-            outbox.send(match written {
-                Ok(()) => Event::Written {
-                    message: format!("Saved {}", path.display()),
-                },
-                Err(error) => Event::Failed {
-                    message: format!("{}: {error}", path.display()),
-                },
-            });
-        });
-    }
-
-    fn in_thread(outbox: &Outbox, ask: impl FnOnce(Outbox) + Send + 'static) {
-        let outbox = outbox.clone();
-        let for_failure = outbox.clone();
-        let thread = std::thread::Builder::new().name("dialog".into());
-        if thread.spawn(move || ask(outbox)).is_err() {
-            let message = "no dialog could be opened".to_owned();
-            for_failure.send(Event::Failed { message });
-        }
-    }
-
-    /// Writes a file beside its place and renames it into it: a failure leaves the old one whole.
-    ///
-    /// # Errors
-    /// Those of the file system, and of `write`.
-    pub fn write_beside<E: From<std::io::Error>>(
-        path: &Path,
-        write: impl FnOnce(&mut std::io::BufWriter<std::fs::File>) -> Result<(), E>,
-    ) -> Result<(), E> {
-        let mut name = path.file_name().unwrap_or_default().to_owned();
-        name.push(format!(".{}.tmp", std::process::id()));
-        let beside = path.with_file_name(name);
-        let outcome = std::fs::File::create(&beside)
-            .map_err(E::from)
-            .and_then(|file| {
-                let mut file = std::io::BufWriter::new(file);
-                write(&mut file)?;
-                file.flush().map_err(E::from)
-            });
-        let outcome = outcome.and_then(|()| std::fs::rename(&beside, path).map_err(E::from));
-        if outcome.is_err() {
-            // What is left of it is of no use; that it cannot be removed either is no news.
-            drop(std::fs::remove_file(&beside));
-        }
-        outcome
-    }
+    outcome
 }

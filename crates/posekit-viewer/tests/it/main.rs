@@ -7,6 +7,7 @@ mod animate;
 mod arm_lab;
 mod clips;
 mod comparing;
+mod dialogs;
 mod editing;
 mod graph;
 mod interpolation;

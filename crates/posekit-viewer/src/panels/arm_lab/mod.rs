@@ -10,26 +10,15 @@ mod numbers;
 mod strip;
 mod view;
 
-use egui::{CentralPanel, Frame, Margin, Panel, Rect, Ui};
+use egui::{CentralPanel, Frame, Margin, Rect, Ui};
 use posekit::skeleton::JointId;
 
 use super::Asked;
+use super::sides::{Side, Sides};
 use crate::picture::painter::Painter;
 use crate::state::arm::ArmLab;
 use crate::state::arm::factors::Detail;
 use crate::state::display::Look;
-
-/// Under this width the right side does not open beside the left one.
-const NARROW: f32 = 900.0;
-
-/// Which sides are open.
-#[derive(Clone, Copy, Debug)]
-pub struct Sides {
-    /// The joints.
-    pub left: bool,
-    /// The tip's numbers.
-    pub right: bool,
-}
 
 /// What is shown below the view.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -64,26 +53,23 @@ pub fn show(
     asked: &mut Asked,
 ) -> Rect {
     let before = lab.version();
-    let is_narrow = ui.available_width() < NARROW;
     let ground = Frame::NONE.fill(ui.visuals().panel_fill);
     let side = ground.inner_margin(Margin::symmetric(10, 6));
     if sides.left {
-        Panel::left("lab joints")
+        sides
+            .panel(Side::Left, "lab joints", (230.0, 272.0), ui)
             .frame(side)
-            .resizable(true)
-            .default_size(272.0)
-            .size_range(230.0..=440.0)
             .show(ui, |ui| joints::show(ui, lab, panel, asked));
     }
-    if sides.right && !(is_narrow && sides.left) {
-        Panel::right("lab numbers")
+    if sides.right {
+        sides
+            .panel(Side::Right, "lab numbers", (240.0, 292.0), ui)
             .frame(side)
-            .resizable(true)
-            .default_size(292.0)
-            .size_range(260.0..=440.0)
             .show(ui, |ui| numbers::show(ui, lab));
     }
-    below::show(ui, lab, panel);
+    if !sides.is_under_view() {
+        below::show(ui, lab, panel);
+    }
     let shown = CentralPanel::no_frame().show(ui, |ui| {
         let rect = ui.available_rect_before_wrap();
         view::show(ui, (&mut *lab, *panel, painter), look, asked);

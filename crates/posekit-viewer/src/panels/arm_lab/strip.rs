@@ -24,32 +24,40 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, lab: &mut ArmLab, asked: &mut Asked)
     let builder = UiBuilder::new()
         .max_rect(room)
         .layout(Layout::left_to_right(Align::Min));
-    ui.scope_builder(builder, |ui| tools(ui, lab, asked));
+    let above = ui.scope_builder(builder, |ui| tools(ui, room.width(), lab, asked));
     let Some(bench) = lab.bench() else { return };
-    warning(ui, room, bench);
+    let below = room.with_min_y(above.inner.bottom() + 2.0 * GAP);
+    warning(ui, below, bench);
     if bench.is_dragging() {
         pill(ui, room, "Ctrl: in steps  \u{b7}  Esc: let go");
     }
 }
 
-fn tools(ui: &mut Ui, lab: &mut ArmLab, asked: &mut Asked) {
+/// Where less is left the tools are in two lines.
+const TOOLS_ROOM: f32 = 520.0;
+
+/// Shows the tools. Where they are.
+fn tools(ui: &mut Ui, width: f32, lab: &mut ArmLab, asked: &mut Asked) -> Rect {
     let palette = Palette::in_ui(ui);
     let card = Frame::NONE
         .fill(palette.raised.gamma_multiply(0.94))
         .stroke(Stroke::new(1.0, palette.line))
         .corner_radius(9.0)
         .inner_margin(Margin::same(3));
-    card.show(ui, |ui| {
-        ui.horizontal(|ui| {
-            ui.spacing_mut().item_spacing.x = GAP;
+    let shown = card.show(ui, |ui| {
+        let first = |ui: &mut Ui, (lab, asked): &mut (&mut ArmLab, &mut Asked)| {
             let (undo, redo) = lab.bench().map_or((false, false), Bench::can_undo_redo);
             row::undo_buttons(ui, (undo.into(), redo.into()), 26.0, asked);
             tool_choice(ui, lab);
+        };
+        let second = |ui: &mut Ui, (lab, asked): &mut (&mut ArmLab, &mut Asked)| {
             space_choice(ui, lab);
             snap(ui, lab, asked);
-            shown(ui, lab);
-        });
+            shown_choice(ui, lab);
+        };
+        row::rows(ui, width >= TOOLS_ROOM, &mut (lab, asked), [first, second]);
     });
+    shown.response.rect
 }
 
 fn tool_choice(ui: &mut Ui, lab: &mut ArmLab) {
@@ -116,7 +124,7 @@ fn snap(ui: &mut Ui, lab: &ArmLab, asked: &mut Asked) {
     }
 }
 
-fn shown(ui: &mut Ui, lab: &mut ArmLab) {
+fn shown_choice(ui: &mut Ui, lab: &mut ArmLab) {
     let mut shown = lab.shown();
     let is_planar = lab.bench().is_some_and(|bench| bench.planar().is_some());
     let button = Button::new("Show").frame_when_inactive(false);
@@ -155,14 +163,15 @@ fn warning(ui: &Ui, room: Rect, bench: &Bench) {
     };
     let text = format!("{word} {verb}");
     let font = egui::FontId::proportional(13.5);
-    let galley = ui.painter().layout_no_wrap(text.clone(), font, color);
+    let width = (room.width() - 42.0).max(40.0);
+    let galley = ui.painter().layout(text.clone(), font, color, width);
     let size = galley.size() + vec2(42.0, 12.0);
     // Under the tools, in the middle.
-    let at = pos2(room.center().x - size.x / 2.0, room.top() + 44.0);
+    let at = pos2(room.center().x - size.x / 2.0, room.top());
     let card = Rect::from_min_size(at, size);
     ui.painter().rect(
         card,
-        size.y / 2.0,
+        size.y.min(28.0) / 2.0,
         palette.raised.gamma_multiply(0.95),
         Stroke::new(1.2, color),
         egui::StrokeKind::Inside,

@@ -12,23 +12,12 @@ mod view;
 use egui::{CentralPanel, Color32, Frame, Margin, Panel, Rect, Ui};
 
 use super::Asked;
+use super::sides::{Side, Sides};
 use crate::picture::painter::Painter;
 use crate::state::display::Look;
 use crate::state::interpolation::{InterpolationLab, Page};
 
 pub use plots::Quantity;
-
-/// Under this width the right side does not open beside the left one.
-const NARROW: f32 = 900.0;
-
-/// Which sides are open.
-#[derive(Clone, Copy, Debug)]
-pub struct Sides {
-    /// The keys; the clip's choices.
-    pub left: bool,
-    /// The methods.
-    pub right: bool,
-}
 
 /// What the lab's panels remember.
 #[derive(Clone, Copy, Debug)]
@@ -63,35 +52,31 @@ pub fn show(
 ) -> Rect {
     let page = lab.page();
     let before = (lab.version(), lab.clip.version());
-    let is_narrow = ui.available_width() < NARROW;
-    let has_right = sides.right && !(is_narrow && sides.left);
     let ground = Frame::NONE.fill(ui.visuals().panel_fill);
     let side = ground.inner_margin(Margin::symmetric(10, 6));
     lab.measure();
     lab.clip.set_look(look);
     if sides.left {
-        Panel::left("interpolation left")
+        sides
+            .panel(Side::Left, "interpolation left", (240.0, 268.0), ui)
             .frame(side)
-            .resizable(true)
-            .default_size(268.0)
-            .size_range(240.0..=440.0)
             .show(ui, |ui| match page {
                 Page::Orientations => keys::show(ui, lab),
                 Page::Clip => clip::choices::show(ui, lab),
             });
     }
-    if has_right {
-        Panel::right("interpolation right")
+    if sides.right {
+        sides
+            .panel(Side::Right, "interpolation right", (250.0, 300.0), ui)
             .frame(side)
-            .resizable(true)
-            .default_size(300.0)
-            .size_range(272.0..=520.0)
             .show(ui, |ui| match page {
                 Page::Orientations => methods::show(ui, lab),
                 Page::Clip => clip::errors::show(ui, lab),
             });
     }
-    plots::show_below(ui, lab, panel, !has_right);
+    if !sides.is_under_view() {
+        plots::show_below(ui, lab, panel, !sides.right);
+    }
     Panel::bottom("interpolation time")
         .frame(ground.inner_margin(Margin::symmetric(10, 4)))
         .resizable(false)

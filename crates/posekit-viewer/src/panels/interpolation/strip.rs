@@ -10,9 +10,8 @@ use crate::state::interpolation::{InterpolationLab, Page, Picture};
 use crate::state::mode::{Space, TURN_STEP_DEG};
 use crate::theme::{GAP, Palette};
 
-/// Under these widths the strip leaves out what keys do as well.
-const SNAP_ROOM: f32 = 760.0;
-const UNDO_ROOM: f32 = 560.0;
+/// Under this width the cards stand under each other.
+const NARROW: f32 = 780.0;
 
 /// Shows it.
 pub(super) fn show(ui: &mut Ui, rect: Rect, lab: &mut InterpolationLab, asked: &mut Asked) {
@@ -22,22 +21,22 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, lab: &mut InterpolationLab, asked: &
     }
     let builder = UiBuilder::new()
         .max_rect(room)
-        .layout(Layout::left_to_right(Align::Min));
+        .layout(if room.width() < NARROW {
+            Layout::top_down(Align::Min)
+        } else {
+            Layout::left_to_right(Align::Min)
+        });
     ui.scope_builder(builder, |ui| {
-        ui.spacing_mut().item_spacing.x = 2.0 * GAP;
+        ui.spacing_mut().item_spacing = vec2(2.0 * GAP, GAP);
         card(ui, |ui| pages(ui, lab));
         match lab.page() {
             Page::Orientations => {
                 card(ui, |ui| pictures(ui, lab));
-                if room.width() >= UNDO_ROOM {
-                    card(ui, |ui| {
-                        let (undo, redo) = lab.can_undo_redo();
-                        row::undo_buttons(ui, (undo.into(), redo.into()), 22.0, asked);
-                        if room.width() >= SNAP_ROOM {
-                            rings(ui, lab, asked);
-                        }
-                    });
-                }
+                card(ui, |ui| {
+                    let (undo, redo) = lab.can_undo_redo();
+                    row::undo_buttons(ui, (undo.into(), redo.into()), 22.0, asked);
+                    rings(ui, lab, asked);
+                });
             }
             Page::Clip => card(ui, |ui| arrangements(ui, lab)),
         }

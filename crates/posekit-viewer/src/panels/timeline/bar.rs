@@ -14,6 +14,10 @@ use crate::state::edit::Gesture;
 use crate::state::session::Session;
 use crate::theme::{GAP, Palette};
 
+/// The bar is one line where there is this much room, two where there is that much, and three otherwise.
+const ONE_LINE: f32 = 860.0;
+const TWO_LINES: f32 = 520.0;
+
 /// How far beyond its neighbours a pose can be slid, percent.
 const OVERSHOOT: std::ops::RangeInclusive<f64> = -50.0..=150.0;
 
@@ -25,26 +29,63 @@ pub(super) struct Bar {
 
 /// Shows the bar.
 pub(super) fn show(ui: &mut Ui, session: &mut Session, timeline: &mut Timeline, asked: &mut Asked) {
-    ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = GAP;
-        for tab in Tab::ALL {
-            if row::segment(ui, tab.name(), timeline.tab == tab).clicked() {
-                timeline.tab = tab;
-            }
-        }
-        ui.add_space(2.0 * GAP);
-        keying(ui, session, asked);
-        ui.add_space(2.0 * GAP);
-        slide(ui, session, &mut timeline.bar);
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            ways(ui, session, asked);
+    let room = ui.available_width();
+    let line = |ui: &mut Ui, contents: &mut dyn FnMut(&mut Ui)| {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = GAP;
+            contents(ui);
         });
-    });
+    };
+    if room >= ONE_LINE {
+        line(ui, &mut |ui| {
+            tabs(ui, timeline);
+            ui.add_space(2.0 * GAP);
+            keying(ui, session, asked);
+            switches(ui, session, asked);
+            ui.add_space(2.0 * GAP);
+            slide(ui, session, &mut timeline.bar);
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                ways(ui, session, asked);
+            });
+        });
+    } else if room >= TWO_LINES {
+        line(ui, &mut |ui| {
+            tabs(ui, timeline);
+            ui.add_space(2.0 * GAP);
+            keying(ui, session, asked);
+            switches(ui, session, asked);
+        });
+        line(ui, &mut |ui| {
+            slide(ui, session, &mut timeline.bar);
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                ways(ui, session, asked);
+            });
+        });
+    } else {
+        line(ui, &mut |ui| {
+            tabs(ui, timeline);
+            switches(ui, session, asked);
+        });
+        line(ui, &mut |ui| {
+            keying(ui, session, asked);
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                ways(ui, session, asked);
+            });
+        });
+        line(ui, &mut |ui| slide(ui, session, &mut timeline.bar));
+    }
     ui.add_space(GAP);
 }
 
+fn tabs(ui: &mut Ui, timeline: &mut Timeline) {
+    for tab in Tab::ALL {
+        if row::segment(ui, tab.name(), timeline.tab == tab).clicked() {
+            timeline.tab = tab;
+        }
+    }
+}
+
 fn keying(ui: &mut Ui, session: &Session, asked: &mut Asked) {
-    let settings = session.animate();
     let accent = Palette::in_ui(ui).accent;
     let name = RichText::new("Key");
     let name = if session.has_pending_pose() {
@@ -69,6 +110,11 @@ fn keying(ui: &mut Ui, session: &Session, asked: &mut Asked) {
             asked.command(command);
         }
     }
+}
+
+/// What a changed pose becomes, and how it is changed.
+fn switches(ui: &mut Ui, session: &Session, asked: &mut Asked) {
+    let settings = session.animate();
     for (name, says, on, command) in [
         (
             "Auto-key",

@@ -7,10 +7,10 @@ use crate::command::Command;
 use crate::gizmo::Tool;
 use crate::state::mode::{Mode, Space, TURN_STEP_DEG, move_step};
 use crate::state::session::{Handles, Session};
-use crate::theme::{GAP, Palette};
+use crate::theme::Palette;
 
-/// Under this width the strip leaves out what keys do as well.
-const NARROW: f32 = 430.0;
+/// Under this width the strip has two lines.
+const NARROW: f32 = 470.0;
 
 /// Shows both.
 pub(super) fn show(ui: &mut Ui, rect: Rect, session: &mut Session, asked: &mut Asked) {
@@ -36,16 +36,16 @@ fn tools(ui: &mut Ui, width: f32, session: &mut Session, asked: &mut Asked) {
         .corner_radius(9.0)
         .inner_margin(egui::Margin::same(3));
     card.show(ui, |ui| {
-        ui.horizontal(|ui| {
-            ui.spacing_mut().item_spacing.x = GAP;
+        let first = |ui: &mut Ui, (session, asked): &mut (&mut Session, &mut Asked)| {
             let (undo, redo) = session.step_names();
             row::undo_buttons(ui, (undo.into(), redo.into()), 26.0, asked);
             tool_choice(ui, session, asked);
-            if width >= NARROW {
-                spaces(ui, session);
-                snap(ui, session, asked);
-            }
-        });
+        };
+        let second = |ui: &mut Ui, (session, asked): &mut (&mut Session, &mut Asked)| {
+            spaces(ui, session);
+            snap(ui, session, asked);
+        };
+        row::rows(ui, width >= NARROW, &mut (session, asked), [first, second]);
     });
 }
 
