@@ -22,6 +22,12 @@ impl Bvh {
     /// The joints stand in depth-first order, as the format has it, whatever their order in the
     /// skeleton.
     pub fn from_motion(motion: &Motion, order: EulerOrder) -> Self {
+        Self::from_motion_with(motion, |_| order)
+    }
+
+    /// As [`from_motion`](Self::from_motion), with an order for each joint.
+    pub fn from_motion_with(motion: &Motion, order_of: impl Fn(JointId) -> EulerOrder) -> Self {
+        let orders: Vec<EulerOrder> = motion.skeleton().joints().map(order_of).collect();
         let skeleton = motion.skeleton();
         let ids = depth_first(skeleton);
         let mut place_of = vec![0; ids.len()];
@@ -40,7 +46,11 @@ impl Bvh {
                 .as_dvec3()
                 .to_array()
                 .map(rounded),
-            channels: channels(skeleton.is_end_site(id), is_translated[id.index()], order),
+            channels: channels(
+                skeleton.is_end_site(id),
+                is_translated[id.index()],
+                orders[id.index()],
+            ),
             is_end_site: skeleton.is_end_site(id),
             end_name: end_name(skeleton, id),
         });
@@ -53,6 +63,7 @@ impl Bvh {
                     let place = motion.translation(frame, id).as_dvec3();
                     values.extend(place.to_array().map(rounded));
                 }
+                let order = orders[id.index()];
                 let previous = &mut previous_rad[id.index()];
                 let rotation = motion.rotation(frame, id).as_dquat();
                 *previous = order.from_quat_near(rotation, *previous).angles_rad;
