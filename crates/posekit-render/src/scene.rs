@@ -23,8 +23,8 @@ pub struct Scene {
     pub ground: Option<Ground>,
     /// Sun, fill and sky.
     pub lighting: Lighting,
-    /// Lights at places; [`MOST_LAMPS`] of them are drawn. Where there are any, the first one casts
-    /// the shadow instead of the key light, and the ground takes their light.
+    /// Lights at places; [`MOST_LAMPS`] of them are drawn. The ground takes their light. Where the key
+    /// light is off, the first one casts the shadow.
     pub lamps: Vec<Lamp>,
     /// Bodies and bones.
     pub models: Vec<Model>,
@@ -88,12 +88,14 @@ pub struct Lighting {
     pub bounce: Color,
     /// How dark the key light's shadow is on the ground, 0..=1.
     pub shadow_strength: f32,
-    /// Where there are lamps: the light that the ground has without any of them.
+    /// Where light is added up: what the ground has without any lamp, 1 for its own colour.
     pub ground_ambient: f32,
     /// Radius of the shadow's soft edge, world length.
     pub shadow_softness: f32,
     /// How dark the ground is right under a body part that touches it, 0..=1.
     pub contact_strength: f32,
+    /// Factor of all light where light is added up ([`Scene::is_lit`]), as a camera's exposure.
+    pub exposure: f32,
 }
 
 /// A light at a place, which shines to all sides.
@@ -143,6 +145,25 @@ impl Scene {
     #[must_use]
     pub fn drawn_lamps(&self) -> &[Lamp] {
         &self.lamps[..self.lamps.len().min(MOST_LAMPS)]
+    }
+
+    /// Whether the light of this picture is added up from its lamps: there are some, or the key light is
+    /// off. Then it is exposed and tone-mapped; otherwise it is as the theme has composed it.
+    #[must_use]
+    pub fn is_lit(&self) -> bool {
+        !self.lamps.is_empty() || self.is_key_off()
+    }
+
+    /// The lamp that casts the shadow; `None` where the key light does, or nothing.
+    #[must_use]
+    pub fn casting_lamp(&self) -> Option<&Lamp> {
+        self.lamps.first().filter(|_| self.is_key_off())
+    }
+
+    /// Whether there is no key light.
+    #[must_use]
+    pub fn is_key_off(&self) -> bool {
+        self.lighting.key == Color::default()
     }
 }
 

@@ -3,8 +3,8 @@
 //! The CPU back end calls these functions; the shader in `gpu/shader.wgsl` says the same in WGSL.
 //! Lit surfaces are shaded in linear light with a wrapped Lambert key light, an unshadowed fill
 //! light, a hemisphere of sky and bounce light, a broad highlight and a faint rim. Lamps add plain
-//! Lambert light that falls with the square of the distance. The ground's pattern is mixed in encoded
-//! sRGB, where even steps look even.
+//! Lambert light that falls with the square of the distance; where there are any the sum is exposed and
+//! tone-mapped ([`tone`]). The ground's pattern is mixed in encoded sRGB, where even steps look even.
 
 use glam::Vec3;
 
@@ -141,19 +141,35 @@ pub(crate) fn lamp_shade(
     sum
 }
 
-/// How soon the ground comes near to its own colour, which it has under endless light: it is the
-/// brightest thing in most pictures and would be a white hole where lights add up.
-pub(crate) const GROUND_EXPOSURE: f32 = 1.2;
+/// Up to here light is shown as it is; above, tone mapping begins.
+pub(crate) const TONE_KNEE: f32 = 0.75;
 
-/// Factors of the ground's encoded red, green and blue under lamps, 0..=1. The root stands for the
-/// encoding: the ground is mixed in encoded values.
+/// Tone mapping of one value: itself up to the knee, then a hyperbola that leaves it with the same slope and
+/// comes near to 1 under endless light (Reinhard et al. 2002, "Photographic tone reproduction for digital
+/// images", its curve x / (1 + x), here only above the knee).
+#[inline]
+pub(crate) fn tone(value: f32) -> f32 {
+    let over = ((value - TONE_KNEE) * (1.0 / (1.0 - TONE_KNEE))).max(0.0);
+    value.min(TONE_KNEE) + (1.0 - TONE_KNEE) * over / (1.0 + over)
+}
+
+/// Tone mapping of a colour by its brightest part, so that it keeps its hue: what is bright and orange does
+/// not turn white.
+#[inline]
+pub(crate) fn tone_map(linear: [f32; 3]) -> [f32; 3] {
+    let brightest = linear[0].max(linear[1]).max(linear[2]);
+    let factor = tone(brightest) / brightest.max(1e-6);
+    linear.map(|part| part * factor)
+}
+
+/// The light of a point of ground under lamps, linear. `ambient` is what it has without them.
 pub(crate) fn ground_light(
     point: Vec3,
-    ambient: f32,
+    ambient: [f32; 3],
     first_light: f32,
     lamps: &[Lamp],
 ) -> [f32; 3] {
-    let mut sum = [ambient; 3];
+    let mut sum = ambient;
     for (index, lamp) in lamps.iter().enumerate() {
         let (direction, strength) = lamp_at(lamp, point);
         let arriving = if index == 0 { first_light } else { 1.0 };
@@ -163,7 +179,27 @@ pub(crate) fn ground_light(
             *sum += color * diffuse;
         }
     }
-    sum.map(|light| (1.0 - libm::expf(-GROUND_EXPOSURE * light.max(0.0))).sqrt())
+    sum
+}
+
+/// Factors of the ground's encoded red, green and blue under an exposed light. `brightness` is the brightest
+/// part of the ground's own linear colour. The root stands for the encoding: the ground is mixed in
+/// encoded values.
+#[inline]
+pub(crate) fn ground_factors(light: [f32; 3], brightness: f32) -> [f32; 3] {
+    let shown = brightness * light[0].max(light[1]).max(light[2]);
+    let factor = tone(shown) / shown.max(1e-6);
+    light.map(|part| (part * factor).max(0.0).sqrt())
+}
+
+/// What is left of the ground's ambient light in the key light's shadow; squared, as that is measured on
+/// encoded values.
+#[inline]
+pub(crate) fn ambient_in_shadow(ambient: f32, shade: f32) -> [f32; 3] {
+    SHADOW_TINT.map(|tint| {
+        let left = 1.0 - shade * tint;
+        ambient * left * left
+    })
 }
 
 /// The share of the sky that a body sees at a height above the ground: less close to it, most of
@@ -172,4 +208,44 @@ pub(crate) fn ground_light(
 pub(crate) fn openness_above_ground(height: f32, normal_y: f32, reach: f32) -> f32 {
     let near = 1.0 - (height / reach).clamp(0.0, 1.0);
     1.0 - near * near * (0.45 - 0.25 * normal_y)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tone_mapping_keeps_what_is_shown_as_it_is_and_never_reaches_white() {
+        for value in [0.0, 0.18, 0.5, TONE_KNEE] {
+            assert!((tone(value) - value).abs() < 1e-7, "{value}");
+        }
+        // No corner at the knee, and always onward.
+        let slope = |at: f32| (tone(at + 1e-3) - tone(at)) / 1e-3;
+        assert!((slope(TONE_KNEE + 1e-4) - 1.0).abs() < 0.02);
+        let mut before = 0.0;
+        for step in 1..200_u16 {
+            let now = tone(f32::from(step) * 0.05);
+            assert!(now > before && now < 1.0, "{step}");
+            before = now;
+        }
+        assert!(tone(1e9) <= 1.0);
+    }
+
+    #[test]
+    fn tone_mapping_keeps_hues() {
+        let [r, g, b] = tone_map([9.0, 4.5, 0.9]);
+        assert!(r < 1.0 && (g / r - 0.5).abs() < 1e-5 && (b / r - 0.1).abs() < 1e-5);
+        assert_eq!(tone_map([0.0; 3]), [0.0; 3]);
+    }
+
+    /// The ground without lamps, in the room's own light, is nearly as the theme has it.
+    #[test]
+    fn the_ground_in_its_own_light_has_its_own_colour() {
+        for brightness in [0.05, 0.5, 0.91] {
+            let factors = ground_factors([1.0; 3], brightness);
+            for factor in factors {
+                assert!((0.96..=1.0).contains(&factor), "{brightness}: {factor}");
+            }
+        }
+    }
 }

@@ -1,5 +1,5 @@
-//! What the shadow map covers, seen along the key light or from the first lamp: the same for both
-//! back ends.
+//! What the shadow map covers, seen along the key light or, where that is off, from the first lamp: the
+//! same for both back ends.
 
 use glam::Vec3;
 
@@ -60,11 +60,12 @@ pub(crate) struct Receiver {
 impl ShadowFrame {
     /// A frame around all shadow casters; `None` when there are none.
     pub(crate) fn around(scene: &Scene) -> Option<Self> {
-        match scene.lamps.first() {
+        match scene.casting_lamp() {
             Some(lamp) => Self::from_lamp(scene, lamp).or_else(|| {
                 let middle = middle(scene)?;
                 Self::along(scene, (lamp.position - middle).normalize_or(Vec3::Y))
             }),
+            None if scene.is_key_off() => None,
             None => Self::along(scene, scene.lighting.key_direction.normalize_or(Vec3::Y)),
         }
     }

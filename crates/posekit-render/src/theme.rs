@@ -85,6 +85,7 @@ impl Theme {
             ground_ambient: 1.0,
             shadow_softness: 0.022 * scale,
             contact_strength: 0.42,
+            exposure: 1.0,
         }
     }
 }

@@ -24,7 +24,12 @@ impl Bvh {
     /// The joints stand in depth-first order, as the format has it, whatever their order in the
     /// skeleton.
     pub fn from_motion(motion: &Motion, order: EulerOrder) -> Self {
-        let mut rows = Rows::of(motion, order);
+        Self::from_motion_with(motion, |_| order)
+    }
+
+    /// As [`from_motion`](Self::from_motion), with an order for each joint.
+    pub fn from_motion_with(motion: &Motion, order_of: impl Fn(JointId) -> EulerOrder) -> Self {
+        let mut rows = Rows::of(motion, order_of);
         let mut values = Vec::new();
         rows.append(motion, &mut values);
         Self {
@@ -41,7 +46,8 @@ impl Bvh {
 /// The rows of a motion that may come in pieces, one after the other.
 pub(super) struct Rows {
     skeleton: Arc<Skeleton>,
-    order: EulerOrder,
+    /// Of each joint of the skeleton.
+    orders: Vec<EulerOrder>,
     /// Depth first, as the rows have them.
     ids: Vec<JointId>,
     is_translated: Vec<bool>,
@@ -51,8 +57,9 @@ pub(super) struct Rows {
 
 impl Rows {
     /// Rows for the skeleton and the translated joints of a motion.
-    pub(super) fn of(motion: &Motion, order: EulerOrder) -> Self {
+    pub(super) fn of(motion: &Motion, order_of: impl Fn(JointId) -> EulerOrder) -> Self {
         let skeleton = Arc::clone(motion.skeleton());
+        let orders = skeleton.joints().map(order_of).collect();
         let ids = depth_first(&skeleton);
         let mut is_translated = vec![false; ids.len()];
         for joint in motion.translated_joints() {
@@ -61,7 +68,7 @@ impl Rows {
         Self {
             previous_rad: vec![[0.0; 3]; ids.len()],
             skeleton,
-            order,
+            orders,
             ids,
             is_translated,
         }
@@ -85,7 +92,7 @@ impl Rows {
                     .as_dvec3()
                     .to_array()
                     .map(rounded),
-                channels: channels(is_end_site, is_translated, self.order),
+                channels: channels(is_end_site, is_translated, self.orders[id.index()]),
                 is_end_site,
                 end_name: end_name(skeleton, id),
             }
@@ -102,10 +109,11 @@ impl Rows {
                     let place = motion.translation(frame, id).as_dvec3();
                     values.extend(place.to_array().map(rounded));
                 }
+                let order = self.orders[id.index()];
                 let previous = &mut self.previous_rad[id.index()];
                 let rotation = motion.rotation(frame, id).as_dquat();
-                *previous = self.order.from_quat_near(rotation, *previous).angles_rad;
-                let angles = previous.iter().take(self.order.axes().len());
+                *previous = order.from_quat_near(rotation, *previous).angles_rad;
+                let angles = previous.iter().take(order.axes().len());
                 values.extend(angles.map(|angle| rounded(angle.to_degrees())));
             }
         }

@@ -103,7 +103,7 @@ pub fn write_motion_to(
     options: WriteOptions,
     mut output: impl io::Write,
 ) -> io::Result<()> {
-    let mut rows = Rows::of(head, order);
+    let mut rows = Rows::of(head, |_| order);
     let document = Bvh {
         joints: rows.joints(),
         motion: None,

@@ -29,6 +29,9 @@ pub struct Scene {
     pub tracks: Vec<JointTrack>,
     /// The cameras; pictures are taken by the first one, or by the viewer's own where there is none.
     pub cameras: Vec<Camera>,
+    /// Whether the studio light is on, the light that pictures have without any lights. A file that says
+    /// nothing of it has it where it has no lights.
+    pub studio_light: bool,
     /// The lights.
     pub lights: Vec<Light>,
     /// Objects that stand around.
@@ -324,6 +327,7 @@ impl Scene {
             motions: Vec::new(),
             tracks: Vec::new(),
             cameras: Vec::new(),
+            studio_light: true,
             lights: Vec::new(),
             props: Vec::new(),
         }

@@ -73,6 +73,9 @@ fn write_checked(
     text.field("range_secs", &range);
     let rate = text.number(scene.frames_per_sec);
     text.field("frames_per_sec", &rate);
+    if scene.studio_light != scene.lights.is_empty() {
+        text.field("studio_light", &scene.studio_light.to_string());
+    }
     text.skeleton(&scene.skeleton);
     for layer in &scene.motions {
         text.head("[[motion]]");

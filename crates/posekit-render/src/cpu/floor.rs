@@ -7,8 +7,11 @@
 use glam::{DMat4, DVec4, Vec3};
 use wide::{f32x8, i32x8};
 
+use crate::color::Color;
 use crate::scene::{Background, Ground, Lamp, Scene};
-use crate::shading::{CONTACT_REACH, SHADOW_TINT, contact_window, ground_light};
+use crate::shading::{
+    CONTACT_REACH, SHADOW_TINT, ambient_in_shadow, contact_window, ground_factors, ground_light,
+};
 
 use super::shadow::ShadowMap;
 use super::tile::TILE;
@@ -71,7 +74,52 @@ pub(super) struct Floor {
     plane: Option<Plane>,
     ground: Option<GroundLook>,
     contacts: Vec<Contact>,
+    /// Where the ground's light is added up.
+    lit: Option<LitGround>,
+}
+
+/// What lights the ground where light is added up.
+#[derive(Debug)]
+struct LitGround {
     lamps: Vec<Lamp>,
+    /// What there is without lamps.
+    ambient: f32,
+    /// How dark the key light's shadow is; `None` where the first lamp casts it.
+    key_shadow: Option<f32>,
+    exposure: f32,
+    /// The brightest part of the ground's own linear colour.
+    brightness: f32,
+}
+
+impl LitGround {
+    /// `None` where the light is as the theme has composed it.
+    fn of(scene: &Scene, ground: &Ground) -> Option<Self> {
+        let lighting = &scene.lighting;
+        let Color { r, g, b } = ground.color;
+        scene.is_lit().then(|| Self {
+            lamps: scene.drawn_lamps().to_vec(),
+            ambient: lighting.ground_ambient,
+            key_shadow: match scene.casting_lamp() {
+                Some(_) => None,
+                None => Some(lighting.shadow_strength),
+            },
+            exposure: lighting.exposure,
+            brightness: r.max(g).max(b),
+        })
+    }
+
+    /// The factors of red, green and blue of a point, to which a share of the light that casts the shadow
+    /// arrives.
+    fn factors(&self, at: Vec3, arriving: f32) -> [f32; 3] {
+        let light = match self.key_shadow {
+            Some(strength) => {
+                let ambient = ambient_in_shadow(self.ambient, (1.0 - arriving) * strength);
+                ground_light(at, ambient, 1.0, &self.lamps)
+            }
+            None => ground_light(at, [self.ambient; 3], arriving, &self.lamps),
+        };
+        ground_factors(light.map(|part| part * self.exposure), self.brightness)
+    }
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -83,7 +131,6 @@ struct GroundLook {
     shadow_strength: f32,
     shadow_softness: f32,
     contact_strength: f32,
-    ambient: f32,
 }
 
 /// One row of a tile: encoded sRGB and alpha, all in 0..=255, plane by plane so that eight pixels
@@ -144,20 +191,20 @@ impl Floor {
         let lighting = &scene.lighting;
         // Under lamps the ground is lit as bodies are, and a shadow is where light is missing.
         let is_solid = matches!(scene.background, Background::Gradient { .. });
-        let is_lit = is_solid && !scene.lamps.is_empty();
+        let lit = ground.filter(|_| is_solid);
+        let lit = lit.and_then(|ground| LitGround::of(scene, &ground));
         let look = ground.map(|ground| GroundLook {
             ground,
             color: ground.color.to_srgb(),
             line: ground.line_color.to_srgb(),
             axes: ground.axis_colors.map(crate::color::Color::to_srgb),
-            shadow_strength: if is_lit {
+            shadow_strength: if lit.is_some() {
                 0.0
             } else {
                 lighting.shadow_strength
             },
             shadow_softness: lighting.shadow_softness,
             contact_strength: lighting.contact_strength,
-            ambient: lighting.ground_ambient,
         });
         let contacts = ground
             .map(|g| contacts(scene, g.height))
@@ -170,11 +217,7 @@ impl Floor {
             plane,
             ground: look,
             contacts,
-            lamps: if is_lit {
-                scene.drawn_lamps().to_vec()
-            } else {
-                Vec::new()
-            },
+            lit,
         }
     }
 
@@ -258,9 +301,7 @@ impl Floor {
         fade: f32x8,
         (shadow, darkness): (&ShadowMap, &Darkness),
     ) -> Option<[f32x8; 3]> {
-        if self.lamps.is_empty() {
-            return None;
-        }
+        let lit = self.lit.as_ref()?;
         let (xs, zs, fades) = (point.x.to_array(), point.z.to_array(), fade.to_array());
         let mut planes = [[1.0f32; 8]; 3];
         for k in (0..8).filter(|&k| fades[k] > 0.0) {
@@ -271,8 +312,7 @@ impl Floor {
             } else {
                 1.0
             };
-            let factors = ground_light(at, look.ambient, first_light, &self.lamps);
-            for (plane, factor) in planes.iter_mut().zip(factors) {
+            for (plane, factor) in planes.iter_mut().zip(lit.factors(at, first_light)) {
                 plane[k] = factor;
             }
         }

@@ -11,7 +11,7 @@ use wide::{f32x8, u32x8};
 
 use crate::color::encode_linear;
 use crate::scene::{Background, Scene, Shadow};
-use crate::shading::{BODY_SOFTNESS, lamp_at, lamp_shade, openness_above_ground, shade};
+use crate::shading::{BODY_SOFTNESS, lamp_at, lamp_shade, openness_above_ground, shade, tone_map};
 
 use super::floor::{Darkness, Floor, FloorRow};
 use super::geometry::{Geometry, ScreenVertex, SurfaceKind, Triangle};
@@ -326,7 +326,8 @@ fn shade_pixel(source: &Source<'_>, id: u32, x: f32, y: f32) -> [u8; 3] {
     };
     let radius = lighting.shadow_softness * BODY_SOFTNESS;
     let lamps = source.scene.drawn_lamps();
-    let to_light = match lamps.first() {
+    let casting = source.scene.casting_lamp();
+    let to_light = match casting {
         Some(lamp) => lamp_at(lamp, world).0,
         None => lighting.key_direction,
     };
@@ -346,11 +347,13 @@ fn shade_pixel(source: &Source<'_>, id: u32, x: f32, y: f32) -> [u8; 3] {
         )
     });
     let mut linear = shade(albedo, normal, to_eye, key_light, openness, lighting);
-    if !lamps.is_empty() {
-        let added = lamp_shade(albedo, (world, normal), to_eye, key_light, lamps);
-        for (sum, added) in linear.iter_mut().zip(added) {
-            *sum += added;
-        }
+    if !source.scene.is_lit() {
+        return encode_linear(linear);
     }
-    encode_linear(linear)
+    let first_light = if casting.is_some() { key_light } else { 1.0 };
+    let added = lamp_shade(albedo, (world, normal), to_eye, first_light, lamps);
+    for (sum, added) in linear.iter_mut().zip(added) {
+        *sum = (*sum + added) * lighting.exposure;
+    }
+    encode_linear(tone_map(linear))
 }

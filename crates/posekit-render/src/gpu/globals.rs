@@ -62,6 +62,11 @@ impl Globals {
         let lamps = scene.drawn_lamps();
         let flag = |on: bool| if on { 1.0 } else { 0.0 };
         let encodes = flag(target_encodes);
+        let summing = match (scene.is_lit(), scene.casting_lamp()) {
+            (false, _) => 0.0,
+            (true, None) => 1.0,
+            (true, Some(_)) => 2.0,
+        };
         let mut globals = Self {
             clip_from_world: clip.to_cols_array_2d(),
             eye: with(camera.eye, flag(is_lens)),
@@ -70,8 +75,8 @@ impl Globals {
             key: linear(lighting.key, lighting.contact_strength),
             fill_direction: with(lighting.fill_direction, lamps.len() as f32),
             fill: linear(lighting.fill, lighting.ground_ambient),
-            sky: linear(lighting.sky, 0.0),
-            bounce: linear(lighting.bounce, 0.0),
+            sky: linear(lighting.sky, lighting.exposure),
+            bounce: linear(lighting.bounce, summing),
             top: encoded(top, height as f32),
             bottom: encoded(bottom, encodes),
             ..Self::zeroed()
@@ -93,7 +98,9 @@ impl Globals {
         self.line = encoded(ground.line_color, spacing);
         self.axis_x = encoded(ground.axis_colors[0], spacing * ground.major_every as f32);
         self.axis_z = encoded(ground.axis_colors[1], 1.0);
-        self.focus = [ground.focus.x, ground.height, ground.focus.z, 0.0];
+        let Color { r, g, b } = ground.color;
+        let brightness = r.max(g).max(b);
+        self.focus = [ground.focus.x, ground.height, ground.focus.z, brightness];
     }
 
     fn set_shadow(&mut self, frame: Option<&ShadowFrame>, softness: f32) {

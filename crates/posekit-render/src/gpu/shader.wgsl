@@ -21,7 +21,10 @@ struct Globals {
     fill_direction: vec4<f32>,
     // w: the light that the ground has without any lamp.
     fill: vec4<f32>,
+    // w: the exposure of light that is added up.
     sky: vec4<f32>,
+    // w: 0 for light as the theme has it, 1 for light that is added up, 2 where the first lamp casts the
+    // shadow, too.
     bounce: vec4<f32>,
     // Encoded colours. w of `top`: the picture's height in pixels; w of `bottom`: 1 for a target
     // that encodes by itself.
@@ -35,7 +38,7 @@ struct Globals {
     axis_x: vec4<f32>,
     // rgb: encoded; w: 1 with a ground.
     axis_z: vec4<f32>,
-    // xyz: the ground's focus, y its height.
+    // xyz: the ground's focus, y its height; w: the brightest part of its linear colour.
     focus: vec4<f32>,
     // The filter's taps, two in each.
     disc: array<vec4<f32>, 16>,
@@ -59,7 +62,7 @@ const HIGHLIGHT: f32 = 0.10;
 const RIM: f32 = 0.16;
 const BODY_SOFTNESS: f32 = 0.4;
 const LAMP_CORE: f32 = 0.05;
-const GROUND_EXPOSURE: f32 = 1.2;
+const TONE_KNEE: f32 = 0.75;
 const CONTACT_REACH: f32 = 4.0;
 const SHADOW_TINT: vec3<f32> = vec3<f32>(1.0, 0.96, 0.88);
 
@@ -172,6 +175,22 @@ fn light_at(world: vec3<f32>, radius: f32, bias: f32) -> f32 {
     return select(1.0, lit / 32.0, inside && globals.shadow.z > 0.5);
 }
 
+fn brightest(color: vec3<f32>) -> f32 {
+    return max(max(color.r, color.g), color.b);
+}
+
+// See `tone` of the CPU.
+fn tone(value: f32) -> f32 {
+    let over = max((value - TONE_KNEE) / (1.0 - TONE_KNEE), 0.0);
+    return min(value, TONE_KNEE) + (1.0 - TONE_KNEE) * over / (1.0 + over);
+}
+
+// See `tone_map`.
+fn tone_map(linear: vec3<f32>) -> vec3<f32> {
+    let most = brightest(linear);
+    return linear * (tone(most) / max(most, 1e-6));
+}
+
 // The way from a point to a lamp, and how strong the lamp is there; see `lamp_at`.
 fn lamp_at(index: i32, world: vec3<f32>) -> vec4<f32> {
     let lamp = globals.lamps[2 * index];
@@ -215,7 +234,8 @@ fn model_fragment(in: ModelFragment) -> @location(0) vec4<f32> {
     let shadowed = light_at(in.world + normal * (radius * 1.5), radius, radius * 0.5);
     let facing = dot(normal, globals.key_direction.xyz);
     var facing_shadow = facing;
-    if (globals.fill_direction.w > 0.5) {
+    let lamp_casts = globals.bounce.w > 1.5;
+    if (lamp_casts) {
         facing_shadow = dot(normal, lamp_at(0, in.world).xyz);
     }
     let key_light = select(1.0, shadowed, in.look.y > 0.5 && facing_shadow >= -0.2);
@@ -235,8 +255,12 @@ fn model_fragment(in: ModelFragment) -> @location(0) vec4<f32> {
     let rim = grazing * grazing * grazing * RIM * up * openness;
     let ambient = mix(globals.bounce.rgb, globals.sky.rgb, up) * openness;
     let light = globals.key.rgb * key + globals.fill.rgb * (fill * openness) + ambient;
-    let lamps = lamp_shade(in.albedo, in.world, normal, to_eye, key_light);
-    let linear = in.albedo * light + globals.key.rgb * highlight + globals.sky.rgb * rim + lamps;
+    var linear = in.albedo * light + globals.key.rgb * highlight + globals.sky.rgb * rim;
+    if (globals.bounce.w > 0.5) {
+        let first_light = select(1.0, key_light, lamp_casts);
+        linear += lamp_shade(in.albedo, in.world, normal, to_eye, first_light);
+        linear = tone_map(linear * globals.sky.w);
+    }
     return vec4<f32>(to_target(encode(linear)), in.look.x);
 }
 
@@ -287,16 +311,25 @@ fn grid_line(value: f32, span: f32, spacing: f32, half_width: f32) -> f32 {
     return coverage * sparse;
 }
 
-// Factors of the ground's encoded colour under lamps; see `ground_light` of the CPU.
-fn ground_light(world: vec3<f32>, first_light: f32) -> vec3<f32> {
+// Factors of the ground's encoded colour where light is added up, and a share of the light that casts the
+// shadow arrives; see `LitGround` of the CPU.
+fn ground_factors(world: vec3<f32>, shadowed: f32) -> vec3<f32> {
     var sum = vec3<f32>(globals.fill.w);
+    var first_light = shadowed;
+    if (globals.bounce.w < 1.5) {
+        let left = 1.0 - (1.0 - shadowed) * globals.key_direction.w * SHADOW_TINT;
+        sum *= left * left;
+        first_light = 1.0;
+    }
     let count = i32(globals.fill_direction.w);
     for (var i = 0; i < count; i++) {
         let at = lamp_at(i, world);
         let arriving = select(1.0, first_light, i == 0);
         sum += globals.lamps[2 * i + 1].rgb * (max(at.y, 0.0) * at.w * arriving);
     }
-    return sqrt(1.0 - exp(-GROUND_EXPOSURE * max(sum, vec3<f32>(0.0))));
+    let light = sum * globals.sky.w;
+    let shown = globals.focus.w * brightest(light);
+    return sqrt(max(light * (tone(shown) / max(shown, 1e-6)), vec3<f32>(0.0)));
 }
 
 @fragment
@@ -322,8 +355,8 @@ fn ground_fragment(in: GroundFragment) -> @location(0) vec4<f32> {
     let world = vec3<f32>(in.world.x, globals.focus.y, in.world.y);
     let first_light = light_at(world, softness, softness * 0.1);
     var shade = (1.0 - first_light) * globals.key_direction.w * fade;
-    if (globals.fill_direction.w > 0.5) {
-        color = min(color * ground_light(world, first_light), vec3<f32>(1.0));
+    if (globals.bounce.w > 0.5) {
+        color = min(color * ground_factors(world, first_light), vec3<f32>(1.0));
         shade = 0.0;
     }
     color = mix(background_at(in.clip.y), color, fade);

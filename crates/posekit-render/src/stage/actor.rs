@@ -124,6 +124,11 @@ impl Actor {
         }
     }
 
+    /// Gives it other colours.
+    pub fn set_colors(&mut self, colors: CharacterColors) {
+        self.colors = colors;
+    }
+
     /// Shows the figure in a pose of the caller's, world space, whatever the time; ghosts and
     /// trails stay those of the motion. `None` shows the motion again.
     ///

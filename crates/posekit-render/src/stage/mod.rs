@@ -22,7 +22,9 @@ pub use options::{
     SkeletonStyle, StageOptions, Trails,
 };
 pub use room::Room;
-pub use surroundings::{AMBIENT, LIGHT_FULL_AT, Prop, PropShape, Surroundings, keyed_camera};
+pub use surroundings::{
+    AMBIENT, FULL_EXPOSURE, LIGHT_FULL_AT, Prop, PropShape, Surroundings, keyed_camera,
+};
 
 /// Motions with their bodies, ready to be drawn at any time.
 #[derive(Clone, Debug)]
@@ -224,7 +226,12 @@ impl Stage {
             show::add_actor(&mut scene, self, actor, place, time_secs);
         }
         let figure = self.actors.first().map_or(self.stature, Actor::stature);
-        self.surroundings.add_to(&mut scene, figure, time_secs);
+        let subject = match self.actors.first().zip(self.places.first()) {
+            Some((actor, &place)) => actor.steady_root(time_secs) + place,
+            None => self.focus(time_secs),
+        };
+        self.surroundings
+            .add_to(&mut scene, figure, subject, time_secs);
         if !matches!(scene.background, Background::Transparent) {
             scene.captions.extend(grid_caption);
         }

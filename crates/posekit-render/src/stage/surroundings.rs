@@ -1,8 +1,12 @@
 //! What stands around the actors and moves by keys: lights, objects, and the cameras that see them.
 //!
-//! World space, seconds of the scene that they belong to. A stage without lights of its own keeps the
-//! room's; where there is one, the room's key and fill light are off, what is left of sky and walls is
+//! World space, seconds of the scene that they belong to. The room's own light, the studio light, stays
+//! until it is switched off; then its key and fill light are gone, what is left of sky and walls is
 //! [`AMBIENT`] of it, and all else comes from the lights.
+//!
+//! A picture with lights is exposed by what arrives at the figure: up to [`FULL_EXPOSURE`] times a key light
+//! nothing changes; above, exposure goes down, by less than the light goes up, as a camera's is set. So
+//! more and stronger lights make a brighter picture, and not a white one.
 
 use std::sync::{Arc, LazyLock};
 
@@ -14,6 +18,7 @@ use crate::camera::{Camera, Projection};
 use crate::color::Color;
 use crate::mesh::{MATERIAL_COUNT, MaterialId, Mesh, Shape};
 use crate::scene::{Background, Lamp, Model, Scene, Shadow};
+use crate::shading::lamp_at;
 
 /// A light of strength 1 lights with its full colour at this many times the figure's height. A person's
 /// key light stands about so far away.
@@ -21,6 +26,18 @@ pub const LIGHT_FULL_AT: f32 = 3.0;
 
 /// The share of the room's own light that is left where a scene has lights: a shadow is no hole.
 pub const AMBIENT: f32 = 0.3;
+
+/// As much light at the figure, in key lights, is exposed in full.
+pub const FULL_EXPOSURE: f32 = 1.5;
+
+/// Exposure goes with this power of the light above that: 1 would make all pictures equally bright.
+const ADAPTION: f32 = 0.85;
+
+/// Backdrop and floor go with this power of the exposure: bright rooms stay bright around bright lights.
+const BACKDROP: f32 = 0.3;
+
+/// No light is stronger: numbers stay finite.
+const STRONGEST: f64 = 1e6;
 
 /// Segments around a round object.
 const SPHERE_SEGMENTS: usize = 48;
@@ -121,9 +138,11 @@ impl Prop {
 }
 
 /// Lights and objects of a scene.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Surroundings {
-    /// The lights; the first casts a shadow. None: the room's own lights.
+    /// Whether the room's own light is on, which casts the shadow.
+    pub studio_light: bool,
+    /// The lights; the first casts the shadow where the studio light is off.
     pub lights: Vec<KeyedLight>,
     /// The objects.
     pub props: Vec<Prop>,
@@ -131,13 +150,26 @@ pub struct Surroundings {
     pub start_secs: f64,
 }
 
+impl Default for Surroundings {
+    /// An empty room with its own light.
+    fn default() -> Self {
+        Self {
+            studio_light: true,
+            lights: Vec::new(),
+            props: Vec::new(),
+            start_secs: 0.0,
+        }
+    }
+}
+
 impl Surroundings {
-    /// Puts them into a scene whose actors are `stature` high, at a time of the stage.
-    pub(super) fn add_to(&self, scene: &mut Scene, stature: f32, time_secs: f64) {
+    /// Puts them into a scene at a time of the stage. Its actors are `stature` high, and the middle of the
+    /// first is at `subject`.
+    pub(super) fn add_to(&self, scene: &mut Scene, stature: f32, subject: Vec3, time_secs: f64) {
         let time_secs = self.start_secs + time_secs;
         let models = self.props.iter().filter_map(|prop| prop.model(time_secs));
         scene.models.extend(models);
-        if self.lights.is_empty() {
+        if self.lights.is_empty() && self.studio_light {
             return;
         }
         let lamps = self
@@ -145,24 +177,47 @@ impl Surroundings {
             .iter()
             .map(|light| lamp(light, stature, time_secs));
         scene.lamps = lamps.collect();
-        let dimmed = |color: Color| color.scaled(AMBIENT);
         let lighting = &mut scene.lighting;
-        lighting.key = Color::default();
-        lighting.fill = Color::default();
-        lighting.sky = dimmed(lighting.sky);
-        lighting.bounce = dimmed(lighting.bounce);
-        lighting.ground_ambient = AMBIENT;
+        let room = if self.studio_light { 1.0 } else { AMBIENT };
+        if !self.studio_light {
+            lighting.key = Color::default();
+            lighting.fill = Color::default();
+            lighting.sky = lighting.sky.scaled(AMBIENT);
+            lighting.bounce = lighting.bounce.scaled(AMBIENT);
+        }
+        let arriving: f32 = scene
+            .drawn_lamps()
+            .iter()
+            .map(|lamp| brightness_at(lamp, subject))
+            .sum();
+        let exposure = exposure_for(room + arriving);
+        scene.lighting.exposure = exposure;
+        // Backdrop and floor run into each other; they follow some of the way, and do not get black.
+        let seen = (room * libm::powf(exposure, BACKDROP)).max(AMBIENT);
+        scene.lighting.ground_ambient = seen / exposure;
         if let Background::Gradient { top, bottom } = &mut scene.background {
-            (*top, *bottom) = (dimmed(*top), dimmed(*bottom));
+            (*top, *bottom) = (top.scaled(seen), bottom.scaled(seen));
         }
     }
+}
+
+/// How bright a lamp is at a place, whatever faces it there, in key lights.
+fn brightness_at(lamp: &Lamp, place: Vec3) -> f32 {
+    let Color { r, g, b } = lamp.color;
+    lamp_at(lamp, place).1 * r.max(g).max(b)
+}
+
+/// The factor that all light gets where so much arrives at the figure.
+fn exposure_for(key_lights: f32) -> f32 {
+    libm::powf((FULL_EXPOSURE / key_lights).min(1.0), ADAPTION)
 }
 
 /// A keyed light at a time.
 fn lamp(light: &KeyedLight, stature: f32, time_secs: f64) -> Lamp {
     // Cubic keys can overshoot below nothing.
     let strength = light.strength.at(time_secs).max(0.0);
-    let color = (light.color.at(time_secs).max(DVec3::ZERO) * strength).as_vec3();
+    let color = light.color.at(time_secs).max(DVec3::ZERO) * strength;
+    let color = color.min(DVec3::splat(STRONGEST)).as_vec3();
     let finite = |v: Vec3| if v.is_finite() { v } else { Vec3::ZERO };
     let [r, g, b] = finite(color).to_array();
     Lamp {

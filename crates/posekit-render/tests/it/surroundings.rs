@@ -142,6 +142,7 @@ fn lights_add_up() {
 #[test]
 fn a_shadow_lies_and_grows_as_rays_from_the_light_say() {
     let mut scene = stage_with(Surroundings {
+        studio_light: false,
         lights: vec![light(DVec3::new(1.0, 3.0, 0.0), DVec3::ONE, 1.0)],
         props: vec![prop(&PropShape::Sphere, DVec3::Y, DVec3::splat(0.5))],
         ..Surroundings::default()
@@ -190,6 +191,7 @@ fn a_stretched_ball_is_shaded_as_an_ellipsoid() {
     }
     let picture = |shape: &PropShape, scale: DVec3| {
         let mut scene = stage_with(Surroundings {
+            studio_light: false,
             lights: vec![light(DVec3::new(2.0, 3.0, 2.0), DVec3::ONE, 1.0)],
             props: vec![prop(shape, DVec3::new(0.6, 0.7, 0.6), scale)],
             ..Surroundings::default()
@@ -229,6 +231,7 @@ fn full(time_secs: f64) -> Scene {
     let warm = light(DVec3::new(2.0, 3.0, 3.0), DVec3::new(1.0, 0.7, 0.4), 1.0);
     let cold = light(DVec3::new(-3.0, 2.0, 1.0), DVec3::new(0.2, 0.4, 1.0), 0.8);
     stage_with(Surroundings {
+        studio_light: false,
         lights: vec![warm, cold],
         props: vec![crate_box, ball],
         start_secs: 0.0,
@@ -270,7 +273,14 @@ fn both_back_ends_draw_lights_and_objects_alike() {
             full_at: 4.0,
         })
         .collect();
-    for (name, scene) in [("two", full(0.4)), ("near", near), ("many", many)] {
+    for (name, scene) in [
+        ("two", full(0.4)),
+        ("near", near),
+        ("many", many),
+        ("studio", strong(2, 3.0, true)),
+        ("strong", strong(8, 6.0, false)),
+        ("dim", strong(0, 1.0, false)),
+    ] {
         let Some((mean, far)) = crate::gpu_pictures::difference_of_back_ends(&scene, 600, 400)
         else {
             return;
@@ -286,11 +296,13 @@ fn strength_goes_by_the_figures_height_whatever_the_unit() {
     let lamp = |unit: f32| {
         let mut stage = stage_of(waving(unit), StageOptions::default());
         stage.set_surroundings(Surroundings {
+            studio_light: false,
             lights: vec![light(DVec3::ONE, DVec3::new(0.5, 1.0, 0.0), 2.0)],
             ..Surroundings::default()
         });
         let scene = stage.scene(0.0, 1.0);
-        assert!((scene.lighting.ground_ambient - AMBIENT).abs() < 1e-6);
+        let ambient = scene.lighting.ground_ambient * scene.lighting.exposure;
+        assert!((ambient - AMBIENT).abs() < 1e-6);
         (scene.lamps[0], stage.stature())
     };
     for unit in [1.0, 0.01] {
@@ -319,6 +331,7 @@ fn a_stage_without_lights_keeps_the_rooms_own() {
 fn odd_lights_and_objects_are_drawn_without_trouble() {
     let odd = |scale: DVec3| prop(&PropShape::Box, DVec3::new(0.0, 0.2, 1.0), scale);
     let scene = stage_with(Surroundings {
+        studio_light: false,
         lights: vec![
             light(DVec3::new(0.0, 0.2, 1.0), DVec3::ONE, -1.0),
             light(DVec3::splat(f64::NAN), DVec3::splat(-4.0), 1.0),
@@ -359,4 +372,82 @@ fn a_camera_that_looks_down_or_nowhere_still_has_a_picture() {
         let matrix = camera(eye, target, fov).clip_from_world(1.5);
         assert!(matrix.is_finite() && matrix.determinant().abs() > 0.0);
     }
+}
+
+/// A number of strong white lights around the figure.
+fn strong(count: u8, strength: f64, studio_light: bool) -> Scene {
+    let lights = (0..count).map(|i| {
+        let (sin, cos) = (f64::from(i) * 2.4 + 0.5).sin_cos();
+        light(DVec3::new(3.0 * sin, 2.5, 3.0 * cos), DVec3::ONE, strength)
+    });
+    let stage = stage_with(Surroundings {
+        studio_light,
+        lights: lights.collect(),
+        ..Surroundings::default()
+    });
+    let mut scene = stage.scene(0.4, 1.0);
+    scene.captions.clear();
+    scene
+}
+
+/// The share of pixels that are white, and the mean of all, encoded, 0 to 1.
+fn white_and_mean(image: &Image) -> (f32, f32) {
+    let pixels = image.as_rgba().chunks_exact(4);
+    let count = pixels.len() as f32;
+    let (mut white, mut sum) = (0.0, 0.0);
+    for pixel in pixels {
+        let least = pixel[..3].iter().copied().min().unwrap_or(0);
+        white += f32::from(u8::from(least == 255));
+        sum += f32::from(least) / 255.0;
+    }
+    (white / count, sum / count)
+}
+
+/// However many strong lights there are, the picture keeps its shades: it neither burns out nor goes to fog,
+/// nor into the dark.
+#[test]
+fn many_strong_lights_burn_nothing_out() {
+    for studio_light in [true, false] {
+        for count in [1, 2, 3, 8] {
+            let image = cpu::render(&strong(count, 6.0, studio_light), 200, 200);
+            let (white, mean) = white_and_mean(&image);
+            println!("{studio_light} {count}: white {white:.4}, mean {mean:.3}");
+            assert!(white < 0.01, "{count}: {white}");
+            assert!((0.3..0.85).contains(&mean), "{count}: {mean}");
+            // The figure has light and dark still.
+            let levels: Vec<u8> = image.as_rgba().chunks_exact(4).map(|p| p[1]).collect();
+            let (least, most) = (levels.iter().min(), levels.iter().max());
+            let span = most.copied().unwrap_or(0) - least.copied().unwrap_or(0);
+            assert!(span > 100, "{count}: {span}");
+        }
+    }
+}
+
+/// A light that is off, in the studio light, changes next to nothing; the studio light keeps its shadow.
+#[test]
+fn the_first_light_keeps_the_studio_light() {
+    let plain = cpu::render(&strong(0, 1.0, true), 200, 200);
+    let off = cpu::render(&strong(1, 0.0, true), 200, 200);
+    let pairs = plain.as_rgba().iter().zip(off.as_rgba());
+    let most = pairs.map(|(a, b)| a.abs_diff(*b)).max();
+    assert!(most.is_some_and(|most| most <= 12), "{most:?}");
+    let weak = cpu::render(&strong(1, 0.3, true), 200, 200);
+    assert!(white_and_mean(&weak).1 > white_and_mean(&off).1);
+}
+
+/// Without studio light and lights there is what is left of sky and walls, and no shadow.
+#[test]
+fn a_room_without_any_light_is_dim_and_has_no_shadow() {
+    let dim = strong(0, 1.0, false);
+    assert!(dim.is_lit() && dim.casting_lamp().is_none());
+    let mean = white_and_mean(&cpu::render(&dim, 200, 200)).1;
+    let lit = white_and_mean(&cpu::render(&strong(0, 1.0, true), 200, 200)).1;
+    assert!(mean < 0.75 * lit && mean > 0.2 * lit, "{mean} {lit}");
+}
+
+/// What lights there are without the studio light casts its shadow as before.
+#[test]
+fn the_first_light_casts_the_shadow_where_the_studio_light_is_off() {
+    assert!(strong(2, 1.0, false).casting_lamp().is_some());
+    assert!(strong(2, 1.0, true).casting_lamp().is_none());
 }

@@ -136,16 +136,47 @@ impl Viewer {
                 });
                 said.apply(clip)
             }
-            Purpose::Group(_) | Purpose::Beside => self.reading.apply(clip),
+            Purpose::Group { .. } | Purpose::Beside => self.reading.apply(clip),
         };
         match purpose {
-            Purpose::Group(group) if self.groups_opened.insert(group) => self.session.open(clip),
-            Purpose::Group(_) | Purpose::Beside => self.session.open_beside(clip),
+            Purpose::Group { group, rank } => self.take_into_group(clip, group, rank),
+            Purpose::Beside => self.session.open_beside(clip),
             Purpose::Replace(id) => {
                 self.session.replace(id, clip);
                 id
             }
         }
+    }
+
+    /// Files are read at the same time, and the last may be there first: clips stand in the order in which
+    /// they were given, and the first of them is the active one.
+    fn take_into_group(&mut self, clip: Clip, group: u32, rank: usize) -> ClipId {
+        let session = &mut self.session;
+        let is_open = |id: &ClipId| session.clip(*id).is_some();
+        self.grouped.retain(|id, _| is_open(id));
+        let others = self.grouped.iter().filter(|(_, place)| place.0 == group);
+        let after = others
+            .clone()
+            .filter(|(_, place)| place.1 > rank)
+            .min_by_key(|(_, place)| place.1);
+        let after = after.map(|(id, _)| *id);
+        let active = session.active_id();
+        let precedes_active = others
+            .clone()
+            .any(|(id, place)| Some(*id) == active && place.1 > rank);
+        let id = if others.count() == 0 {
+            session.open(clip)
+        } else {
+            session.open_beside(clip)
+        };
+        if let Some(after) = after {
+            session.move_before(id, after);
+        }
+        if precedes_active {
+            session.activate_among(id);
+        }
+        self.grouped.insert(id, (group, rank));
+        id
     }
 
     /// What follows when a clip was opened or read again.

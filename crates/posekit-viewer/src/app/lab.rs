@@ -11,6 +11,7 @@ use crate::state::arm::Robot;
 use crate::state::interpolation::Page;
 use crate::state::mode::{Mode, Space};
 use crate::state::notices::NoticeKind;
+use crate::state::session::Act;
 use crate::work::files;
 
 impl Viewer {
@@ -108,6 +109,10 @@ impl Viewer {
                 Tool::MoveAndTurn
             } else {
                 Tool::Move
+            }),
+            Command::TakeInHand(act) => bench.set_tool(match act {
+                Act::Turn => Tool::MoveAndTurn,
+                Act::Move => Tool::Move,
             }),
             Command::NextSpace => bench.set_space(match bench.space() {
                 Space::Local => Space::World,

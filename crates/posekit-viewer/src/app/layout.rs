@@ -1,9 +1,11 @@
 //! Where the panels stand.
 
-use egui::{CentralPanel, Color32, Frame, Margin, Panel, Rect, RichText, Ui, Vec2};
+use egui::{CentralPanel, Color32, Frame, Key, Margin, Panel, Rect, RichText, Ui, Vec2};
+use posekit::rotation::Axis;
 
 use super::Viewer;
 use crate::command::{self, Command, Place};
+use crate::load::Job;
 use crate::panels::inspector::Checking;
 use crate::panels::sides::{Room, Side, Sides};
 use crate::panels::{Asked, curves, export, help, inspector, joints, library, notices, row};
@@ -43,10 +45,7 @@ impl Viewer {
             return;
         }
         if self.session.is_dragging() {
-            // While a handle is held there is one key: the one that lets it go without effect.
-            if ui.input_mut(|i| i.consume_key(egui::Modifiers::NONE, egui::Key::Escape)) {
-                self.session.cancel_drag();
-            }
+            self.take_keys_of_drag(ui);
             return;
         }
         self.take_clipboard_keys(ui, asked);
@@ -58,6 +57,26 @@ impl Viewer {
             && !self.session.stop_stepping()
         {
             asked.command(Command::Deselect);
+        }
+    }
+
+    /// While a handle is held there is one key: the one that lets it go without effect. What is in hand is
+    /// kept with another, and held to an axis by its name.
+    fn take_keys_of_drag(&mut self, ui: &Ui) {
+        let pressed = |key| ui.input_mut(|i| i.consume_key(egui::Modifiers::NONE, key));
+        if pressed(Key::Escape) {
+            self.session.cancel_drag();
+        }
+        if !self.session.is_in_hand() {
+            return;
+        }
+        if pressed(Key::Enter) {
+            self.session.drop_handle();
+        }
+        for (key, axis) in [(Key::X, Axis::X), (Key::Y, Axis::Y), (Key::Z, Axis::Z)] {
+            if pressed(key) {
+                self.session.hold_to_axis(axis);
+            }
         }
     }
 
@@ -214,6 +233,12 @@ impl Viewer {
             row::text_in(ui, place, text, palette.text);
         }
         let is_stage = !self.session.mode().is_lab();
+        if is_stage
+            && self.session.clips().is_empty()
+            && let Some(job) = self.loader.jobs().first()
+        {
+            show_reading(ui, rect, job);
+        }
         if is_stage && self.session.clips().is_empty() && self.loader.jobs().is_empty() && !hovering
         {
             let text = RichText::new("Drop a BVH file or a scene here, or open one with Ctrl+O")
@@ -267,6 +292,23 @@ impl Viewer {
         }
         was_chosen || answer != export::Answer::None || self.help_open != help_was_open
     }
+}
+
+/// What is being read, where there is nothing else to see, and a way to give it up.
+fn show_reading(ui: &Ui, rect: Rect, job: &Job) {
+    let middle = egui::Area::new(egui::Id::unique("reading"))
+        .pivot(egui::Align2::CENTER_CENTER)
+        .constrain_to(rect)
+        .fixed_pos(rect.center());
+    middle.show(ui.ctx(), |ui| {
+        ui.horizontal(|ui| {
+            ui.spinner();
+            ui.label(format!("Reading {}\u{2026}", job.name));
+            if ui.button("Give up").clicked() {
+                job.progress.cancel();
+            }
+        });
+    });
 }
 
 /// What the window is cleared with, before anything is drawn.

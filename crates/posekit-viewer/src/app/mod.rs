@@ -115,7 +115,8 @@ pub struct Viewer {
     export: ExportWindow,
     /// Options of the last export, and of one that waits for its file name.
     export_options: ExportOptions,
-    groups_opened: BTreeSet<u32>,
+    /// The clips that came with others: their group, and their place in it.
+    grouped: BTreeMap<ClipId, (u32, usize)>,
     next_group: u32,
     /// The window's clock when the clip's clock was moved last.
     last_tick_secs: Option<f64>,
@@ -184,7 +185,7 @@ impl Viewer {
             messages_open: false,
             export: ExportWindow::Closed,
             export_options: ExportOptions::default(),
-            groups_opened: BTreeSet::new(),
+            grouped: BTreeMap::new(),
             next_group: 0,
             last_tick_secs: None,
             places: Places::default(),
@@ -265,11 +266,11 @@ impl Viewer {
         }
     }
 
-    /// Starts reading clips: the first that is read is opened, the others join it.
+    /// Starts reading clips: the first that is read is opened, the others join it in the order given.
     pub fn open_inputs(&mut self, inputs: Vec<Input>) {
         let group = self.new_group();
-        for input in crate::load::together(inputs) {
-            self.loader.read(input, Purpose::Group(group));
+        for (rank, input) in crate::load::together(inputs).into_iter().enumerate() {
+            self.loader.read(input, Purpose::Group { group, rank });
         }
     }
 

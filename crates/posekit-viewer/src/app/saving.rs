@@ -276,7 +276,7 @@ impl Viewer {
                         let input = Input::Kept(Box::new(kept.clone()));
                         self.saving.opening.push(kept);
                         let group = self.new_group();
-                        self.loader.read(input, Purpose::Group(group));
+                        self.loader.read(input, Purpose::Group { group, rank: 0 });
                     }
                 }
             }

@@ -35,6 +35,10 @@ fn apply_to_edits(command: Command, session: &mut Session) -> bool {
             };
         }
         Command::Tool(tool) => tools.tool = tool,
+        Command::TakeInHand(act) => {
+            session.take_in_hand(act);
+            return true;
+        }
         Command::TogglePin(what) => session.toggle_pins(what),
         Command::Solve => session.solve_again(),
         Command::ForgetTarget => session.forget_target(),

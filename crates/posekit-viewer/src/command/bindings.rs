@@ -6,7 +6,7 @@ use posekit_render::camera::View;
 use super::{Binding, Command, Group};
 use crate::gizmo::Tool;
 use crate::state::mode::Mode;
-use crate::state::session::Hold;
+use crate::state::session::{Act, Hold};
 
 const NONE: Modifiers = Modifiers::NONE;
 const SHIFT: Modifiers = Modifiers::SHIFT;
@@ -245,7 +245,7 @@ pub const BINDINGS: &[Binding] = &[
     ),
     bind(
         Command::ToggleRest,
-        NONE,
+        SHIFT,
         Key::R,
         Group::Figure,
         "Rest pose",
@@ -278,7 +278,13 @@ pub const BINDINGS: &[Binding] = &[
         Group::Figure,
         "Motion trails",
     ),
-    bind(Command::ToggleGhosts, NONE, Key::G, Group::Figure, "Ghosts"),
+    bind(
+        Command::ToggleGhosts,
+        SHIFT,
+        Key::G,
+        Group::Figure,
+        "Ghosts",
+    ),
     bind(
         Command::ToggleCompare,
         NONE,
@@ -432,6 +438,20 @@ pub const BINDINGS: &[Binding] = &[
         "Redo",
     ),
     bind(Command::Redo, CTRL, Key::Y, Group::Edit, ""),
+    bind(
+        Command::TakeInHand(Act::Move),
+        NONE,
+        Key::G,
+        Group::Edit,
+        "Move what is selected with the pointer",
+    ),
+    bind(
+        Command::TakeInHand(Act::Turn),
+        NONE,
+        Key::R,
+        Group::Edit,
+        "Turn what is selected with the pointer",
+    ),
     bind(
         Command::Tool(Tool::Move),
         NONE,

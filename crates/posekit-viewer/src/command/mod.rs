@@ -18,7 +18,7 @@ pub use list::{Line, found, lines};
 
 use crate::gizmo::Tool;
 use crate::state::mode::Mode;
-use crate::state::session::Hold;
+use crate::state::session::{Act, Hold};
 
 /// Something the user can ask for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -127,6 +127,8 @@ pub enum Command {
     Mode(Mode),
     /// The gizmo has other handles.
     Tool(Tool),
+    /// What is selected follows the pointer: moved, or turned.
+    TakeInHand(Act),
     /// The gizmo's axes lie otherwise.
     NextSpace,
     /// The gizmo goes in steps, or freely.

@@ -76,6 +76,8 @@ pub(super) fn name_of(input: &Input) -> String {
 #[derive(Debug)]
 pub(super) struct Reading {
     pub(super) job: JobId,
+    /// What is read, for people.
+    pub(super) name: String,
     pub(super) purpose: Purpose,
     pub(super) progress: Arc<Progress>,
     pub(super) outbox: Outbox,
@@ -85,6 +87,11 @@ impl Reading {
     /// Hands in what became of it.
     pub(super) fn hand_in(&self, outcome: Result<Opened, Stop>) {
         let job = self.job;
+        // Who has stopped it has no use for what came of it.
+        let outcome = match self.progress.is_cancelled() {
+            true => Err(Stop::Cancelled),
+            false => outcome,
+        };
         match outcome {
             Ok(Opened::Robot(robot)) => {
                 self.outbox.send(Event::Robot(robot));
@@ -226,6 +233,16 @@ impl Reading {
     }
 }
 
+/// A reading that ends without an outcome would be waited for without an end.
+impl Drop for Reading {
+    fn drop(&mut self) {
+        if !self.progress.is_finished() {
+            let why = format!("{}: the reader failed; please report the file", self.name);
+            self.hand_in(Err(Stop::Failed(why)));
+        }
+    }
+}
+
 /// The clip of a file's first [`BEGINNING_BYTES`], if there is a whole frame in them.
 fn beginning(name: &str, source: &Source, bytes: &[u8]) -> Option<Clip> {
     let head = &bytes[..bytes.len().min(BEGINNING_BYTES)];
@@ -272,5 +289,37 @@ pub(super) fn numbers_of(clip: &Clip) -> SummaryNumbers {
         fps: clip.fps(),
         joint_count: clip.skeleton().joint_count(),
         thumbnail: to_color_image(&thumbnail(clip)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::mpsc::channel;
+
+    use super::*;
+
+    /// As when the reader's thread panics.
+    #[test]
+    fn a_reading_that_breaks_off_is_told_and_over() {
+        let (events, inbox) = channel();
+        let progress = Arc::new(Progress::default());
+        let reading = Reading {
+            job: JobId(3),
+            name: "odd.bvh".to_owned(),
+            purpose: Purpose::Beside,
+            progress: Arc::clone(&progress),
+            outbox: Outbox {
+                events,
+                ctx: egui::Context::default(),
+            },
+        };
+        drop(reading);
+        let event = inbox.try_recv().expect("it is told");
+        let Event::GivenUp { job, message } = event else {
+            panic!("{event:?}");
+        };
+        assert_eq!(job, JobId(3));
+        assert!(message.is_some_and(|text| text.starts_with("odd.bvh: ")));
+        assert!(progress.is_finished());
     }
 }

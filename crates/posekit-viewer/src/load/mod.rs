@@ -8,6 +8,7 @@ mod page;
 pub mod scene;
 mod thread;
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -90,9 +91,14 @@ pub fn together(inputs: Vec<Input>) -> Vec<Input> {
 /// What becomes of a clip when it was read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
-    /// It came with others of one number: the first of them that is read becomes the active one,
-    /// the others join it.
-    Group(u32),
+    /// It came with others of one group: the first of them that is read becomes the active one, the others
+    /// join it, in the order in which they were given.
+    Group {
+        /// The group's number.
+        group: u32,
+        /// Its place among those that were given.
+        rank: usize,
+    },
     /// It joins those on the stage.
     Beside,
     /// It takes the place of its older version.
@@ -347,6 +353,8 @@ pub struct Loader {
     inbox: Receiver<Event>,
     jobs: Vec<Job>,
     jobs_started: u64,
+    /// Readings that were stopped, of which nothing more is wanted.
+    stopped: BTreeSet<JobId>,
     folder: Option<Arc<Progress>>,
 }
 
@@ -364,6 +372,7 @@ impl Loader {
             inbox,
             jobs: Vec::new(),
             jobs_started: 0,
+            stopped: BTreeSet::new(),
             folder: None,
         }
     }
@@ -381,6 +390,7 @@ impl Loader {
         });
         let reading = job::Reading {
             job: id,
+            name: job::name_of(&input),
             purpose,
             progress,
             outbox: self.outbox.clone(),
@@ -464,8 +474,26 @@ impl Loader {
 
     /// What was done since the last time.
     pub fn take_events(&mut self) -> Vec<Event> {
-        self.jobs.retain(|job| !job.progress.is_finished());
-        let events: Vec<Event> = self.inbox.try_iter().collect();
+        let mut events = Vec::new();
+        // A reading that was stopped is over at once: it may be waiting for a disk or a pipe, and see late
+        // that it was stopped.
+        self.jobs.retain(|job| {
+            let is_over = job.progress.is_finished();
+            let is_stopped = job.progress.is_cancelled() && !is_over;
+            if is_stopped {
+                self.stopped.insert(job.id);
+                let (job, message) = (job.id, None);
+                events.push(Event::GivenUp { job, message });
+            }
+            !is_over && !is_stopped
+        });
+        let is_wanted = |event: &Event| match event {
+            Event::Begun { job, .. } | Event::Read { job, .. } | Event::GivenUp { job, .. } => {
+                !self.stopped.contains(job)
+            }
+            _ => true,
+        };
+        events.extend(self.inbox.try_iter().filter(is_wanted));
         if events
             .iter()
             .any(|event| matches!(event, Event::FolderDone))

@@ -1,13 +1,20 @@
 //! Scenes: their text, and the files that it names, as a clip with its keys.
 
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 use std::path::Path;
 
+use posekit::rotation::EulerOrder;
+use posekit_formats::bvh::{self, Extent, ReadOptions};
 use posekit_formats::gltf::file_and_animation;
 use posekit_formats::report::ImportReport;
-use posekit_formats::scene::{self, import_of};
+use posekit_formats::scene::{self, SAMPLE_PREFIX, SkeletonSource, import_of};
 
 use crate::state::animate::{Authored, Files, place};
 use crate::state::clip::{Clip, Source};
+
+/// Hierarchies are no longer.
+const HEAD_BYTES: usize = 1 << 20;
 
 /// A scene that was read: the clip that it bakes to, and its keys.
 pub type ReadScene = (Clip, Authored);
@@ -62,8 +69,27 @@ pub fn authored_of(
         let shown = file.rsplit(['/', '\\']).next().unwrap_or(file);
         report.take_in(shown, import.report);
     }
+    let orders = match &scene.skeleton {
+        SkeletonSource::File(file) if file.starts_with(SAMPLE_PREFIX) => BTreeMap::new(),
+        SkeletonSource::File(file) => bytes_of(file).map_or_else(|_| BTreeMap::new(), orders_in),
+        SkeletonSource::Inline(_) => BTreeMap::new(),
+    };
     let authored = Authored::new(scene, files).map_err(|error| format!("{name}: {error}"))?;
-    Ok((authored, report))
+    Ok((authored.with_orders(orders), report))
+}
+
+/// The order in which a BVH file tells the angles of each joint; none for other files.
+fn orders_in(bytes: Vec<u8>) -> BTreeMap<String, EulerOrder> {
+    let options = ReadOptions {
+        extent: Extent::Beginning,
+        ..ReadOptions::default()
+    };
+    let head = &bytes[..bytes.len().min(HEAD_BYTES)];
+    let import = bvh::read_with(head, options, |_| ControlFlow::Continue(()));
+    let Ok(clip) = import.map(|import| Clip::from_bvh("", Source::Bytes, import)) else {
+        return BTreeMap::new();
+    };
+    clip.map_or_else(|_| BTreeMap::new(), |clip| clip.orders())
 }
 
 /// The bytes of a file among some that came together, known by their names alone.

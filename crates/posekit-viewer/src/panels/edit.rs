@@ -4,7 +4,7 @@ use egui::{Button, RichText, Slider, Ui};
 
 use super::{Asked, row, tip};
 use crate::command::Command;
-use crate::state::edit::{Blend, Gesture, Reach, Spread};
+use crate::state::edit::{Blend, Gesture, Reach};
 use crate::state::session::Session;
 use crate::theme::{GAP, Palette};
 
@@ -75,9 +75,7 @@ fn summary(session: &Session) -> String {
 
 /// How the edit reaches the frames around. Dragging a slider is one step of the history.
 fn spread(ui: &mut Ui, session: &mut Session) {
-    let before = session
-        .edits()
-        .map_or_else(Spread::default, |edits| edits.spread());
+    let before = session.spread();
     let mut spread = before;
     let range = session.transport.range();
     row::line(ui, "Reaches", |ui| {

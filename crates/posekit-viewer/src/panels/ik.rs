@@ -25,7 +25,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, asked: &mut Asked) {
     };
     let mut settings = session.ik().clone();
     chain(ui, session, clip.skeleton(), &mut settings);
-    solver(ui, &mut settings);
+    solver(ui, &mut settings, session.keeps_within_motion());
     session.set_ik(settings);
     ui.add_space(GAP);
     result(ui, session);
@@ -81,7 +81,7 @@ fn chain(ui: &mut Ui, session: &Session, skeleton: &Skeleton, settings: &mut IkS
     });
 }
 
-fn solver(ui: &mut Ui, settings: &mut IkSettings) {
+fn solver(ui: &mut Ui, settings: &mut IkSettings, within_motion: bool) {
     row::line(ui, "Solver", |ui| {
         egui::ComboBox::from_id_salt("ik solver")
             .selected_text(settings.solver.name())
@@ -103,6 +103,15 @@ fn solver(ui: &mut Ui, settings: &mut IkSettings) {
         let slider = Slider::new(&mut settings.tolerance, TOLERANCES).logarithmic(true);
         ui.add(slider.custom_formatter(|value, _| format!("{value:.0e}")))
             .on_hover_text("A target this near counts as reached; a share of the chain's length");
+    });
+    row::line(ui, "Limits", |ui| {
+        let mut on = within_motion;
+        ui.checkbox(&mut on, "Within this motion").on_hover_text(
+            "Joints turn no farther than in the clip, and somewhat more; knees and elbows do not bend backwards",
+        );
+        if on != within_motion {
+            settings.within_motion = Some(on);
+        }
     });
     row::line(ui, "Follows", |ui| {
         ui.checkbox(&mut settings.is_live, "While dragging")

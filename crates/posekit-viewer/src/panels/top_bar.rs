@@ -335,7 +335,7 @@ fn rest_button(ui: &mut Ui, session: &Session, asked: &mut Asked) {
         let text = RichText::new("Rest pose").color(Palette::in_ui(ui).accent);
         if ui
             .add(Button::new(text))
-            .on_hover_text("Back to the motion  (R)")
+            .on_hover_text(tip("Back to the motion", Command::ToggleRest))
             .clicked()
         {
             asked.command(Command::ToggleRest);

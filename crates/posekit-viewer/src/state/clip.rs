@@ -1,5 +1,6 @@
 //! A clip: one opened motion with everything that is derived from it once.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -145,6 +146,29 @@ impl Clip {
         })
     }
 
+    /// The order of a joint's angles in the file; `None` where its channels cannot say every orientation.
+    #[must_use]
+    pub fn rotation_order(&self, joint: JointId) -> Option<EulerOrder> {
+        let axes = self.rotation_axes(joint)?;
+        EulerOrder::new(&axes)
+            .ok()
+            .filter(|order| order.is_complete())
+    }
+
+    /// The order of each joint's angles in the file, by unique names.
+    #[must_use]
+    pub fn orders(&self) -> BTreeMap<String, EulerOrder> {
+        let skeleton = self.skeleton();
+        let told = skeleton
+            .joints()
+            .filter(|joint| joint.index() < self.document.joints.len());
+        let named = told.filter_map(|joint| {
+            let order = self.rotation_order(joint)?;
+            Some((skeleton.unique_name(joint).to_owned(), order))
+        });
+        named.collect()
+    }
+
     /// A clip of a motion that no file holds.
     #[must_use]
     pub fn from_motion(name: impl Into<String>, motion: Motion) -> Self {
@@ -170,9 +194,9 @@ impl Clip {
         })
     }
 
-    /// Gives it another motion, which a document follows from.
-    pub fn set_motion(&mut self, motion: Arc<Motion>) {
-        self.document = Arc::new(Bvh::from_motion(&motion, EulerOrder::ZXY));
+    /// Gives it another motion, which a document follows from: angles in the order of each joint.
+    pub fn set_motion(&mut self, motion: Arc<Motion>, order_of: impl Fn(JointId) -> EulerOrder) {
+        self.document = Arc::new(Bvh::from_motion_with(&motion, order_of));
         self.global = Arc::new(motion.to_global());
         self.motion = motion;
         self.reading = Reading::default();

@@ -65,8 +65,8 @@ impl Mode {
     pub const fn hint(self) -> &'static str {
         match self {
             Self::View | Self::Lab | Self::Interpolation => "",
-            Self::Pose | Self::Animate => "Click a bone, drag its rings",
-            Self::Ik => "Click a dot, drag its arrows",
+            Self::Pose | Self::Animate => "Click a bone, drag its rings, or R and the pointer",
+            Self::Ik => "Click a dot, drag its arrows, or G and the pointer",
         }
     }
 

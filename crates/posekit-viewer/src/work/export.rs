@@ -177,7 +177,7 @@ impl Take {
                 film,
             },
             None => Self {
-                stage: session.stage().clone(),
+                stage: session.film_stage(),
                 camera: TakeCamera::View(session.camera.clone()),
                 film,
             },

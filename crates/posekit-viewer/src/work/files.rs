@@ -43,7 +43,10 @@ pub fn range_document(clip: &Clip, (first, last): (usize, usize)) -> Bvh {
 pub fn range_parcel(clip: &Clip, range: (usize, usize)) -> Result<Parcel, String> {
     let document = range_document(clip, range);
     document.validate().map_err(|problem| problem.to_string())?;
-    let whole = range == (0, clip.frame_count().saturating_sub(1));
+    let last = clip.frame_count().saturating_sub(1);
+    // The time line may be longer: that of another clip beside this one.
+    let range = (range.0.min(last), range.1.min(last));
+    let whole = range == (0, last);
     let stem = stem_of(&clip.name);
     let name = if whole {
         format!("{stem}.bvh")

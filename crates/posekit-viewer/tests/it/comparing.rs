@@ -1,8 +1,11 @@
 //! Several clips: what is active, what is on the stage, what stays when one goes.
 
 use posekit::skeleton::JointId;
+use posekit_render::theme::CharacterColors;
 use posekit_viewer::command::{self, Command};
 use posekit_viewer::state::display::{Compare, FollowMode, PoseShown, Style};
+use posekit_viewer::state::mode::Mode;
+use posekit_viewer::state::session::{Hold, Session};
 
 use super::clips::{arm, session, walking};
 
@@ -60,16 +63,28 @@ fn closing_goes_back_to_the_clip_before() {
     assert!(session.scene().models.is_empty());
 }
 
+/// As those of the command's pictures do.
 #[test]
-fn colours_are_given_to_the_next_clip_when_one_goes() {
+fn figures_take_their_colours_in_the_order_in_which_they_stand() {
     let mut session = session();
+    let first = session.active_id().expect("the arm is open");
     let second = session.open_beside(arm(3));
-    session.open_beside(arm(4));
-    session.close(second);
-    session.open_beside(arm(5));
-    let mut colors: Vec<usize> = session.clips().iter().map(|open| open.color).collect();
-    colors.sort_unstable();
-    assert_eq!(colors, [0, 1, 2]);
+    let third = session.open_beside(arm(4));
+    let colors = |session: &Session| -> Vec<CharacterColors> {
+        let actors = session.stage().actors().iter();
+        actors.map(|actor| *actor.colors()).collect()
+    };
+    let in_order = [0, 1, 2].map(CharacterColors::of);
+    assert_eq!(colors(&session), in_order);
+    session.set_shown(second, false);
+    assert_eq!(colors(&session), in_order[..2]);
+    // The bar beside a clip's name in the list has the colour of its figure.
+    let of_third = session.clips().iter().find(|open| open.id == third);
+    assert_eq!(of_third.map(|open| open.color), Some(1));
+    session.activate(third);
+    assert_eq!(colors(&session), in_order[..1]);
+    session.set_shown(first, true);
+    assert_eq!(colors(&session), in_order[..2]);
 }
 
 #[test]
@@ -206,4 +221,32 @@ fn figures_in_different_units_are_made_equally_tall() {
         (scales[0] - 1.0).abs() < 1e-6 && (scales[1] - 0.01).abs() < 1e-4,
         "{scales:?}"
     );
+}
+
+/// The time line of several clips is as long as the longest, whichever is the active one; those that are over
+/// stand in their last frame.
+#[test]
+fn the_longest_clip_on_the_stage_makes_the_time_line() {
+    let mut session = session();
+    let long = session.open_beside(arm(25));
+    assert_eq!(session.transport.frame_count(), 25);
+    assert_eq!(session.transport.range(), (0, 24));
+    session.transport.pause();
+    session.transport.go_to_frame(20);
+    assert_eq!(session.clip_frame(), 9);
+    let poses = session.poses_on_stage();
+    let own_end = session.active_clip().expect("the arm").global_pose(4.5);
+    assert!(poses[0].1.orientations[1].angle_between(own_end.orientations[1]) < 1e-2);
+    // What is edited there is the last frame that the clip has.
+    session.set_mode(Mode::Pose);
+    session.select(Some(JointId::new(1)));
+    session.set_mode(Mode::Ik);
+    session.toggle_pins(Hold::Effector);
+    session.solve_again();
+    session.set_shown(long, false);
+    assert_eq!(session.transport.frame_count(), 10);
+    assert_eq!(session.transport.frame(), 9);
+    session.set_shown(long, true);
+    session.close(long);
+    assert_eq!(session.transport.frame_count(), 10);
 }

@@ -53,7 +53,7 @@ pub(super) fn drag(window: &mut Window, from: Pos2, to: Pos2) {
     }
 }
 
-fn elbow_rotation(window: &Window) -> Quat {
+pub(super) fn elbow_rotation(window: &Window) -> Quat {
     let session = viewer(window).session();
     let clip = session.active_clip().expect("a clip is open");
     clip.motion
@@ -61,7 +61,7 @@ fn elbow_rotation(window: &Window) -> Quat {
 }
 
 /// The arm, standing at its first frame, its elbow selected, to be posed.
-fn posing() -> Window {
+pub(super) fn posing() -> Window {
     let mut window = laptop(vec![input("arm.bvh", 20)]);
     press(&mut window, Modifiers::NONE, Key::Space);
     press(&mut window, Modifiers::NONE, Key::Home);

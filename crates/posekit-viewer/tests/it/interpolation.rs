@@ -7,7 +7,7 @@ use posekit::inbetween::{Ends, FillError, FillMethod, FillPlan, Method, Preset, 
 use posekit::rotation::{Axis, EulerOrder, angle_between};
 use posekit_viewer::gizmo::{Handle, Viewport};
 use posekit_viewer::state::interpolation::ways::STEPS;
-use posekit_viewer::state::interpolation::{InterpolationLab, Page, Picture, Span};
+use posekit_viewer::state::interpolation::{InterpolationLab, Kind, Page, Picture, Span};
 use posekit_viewer::state::mode::Mode;
 
 use super::editing::place_on_gizmo;
@@ -172,7 +172,7 @@ fn a_preset_is_chosen_and_taken_back() {
     window.get_by_label(Preset::Zxy.title()).click();
     window.run_steps(3);
     let lab = lab_of(&window);
-    assert_eq!(lab.case().preset(), Some(Preset::Zxy));
+    assert_eq!(lab.case().preset(), Some(Preset::Zxy.into()));
     assert_eq!(lab.case().order(), EulerOrder::ZXY);
     assert_eq!(
         lab.case().keys_deg(),
@@ -320,8 +320,8 @@ fn methods_and_pictures_are_switched() {
     assert!(lab_of(&window).is_shown(Method::RawSlerp));
     window.get_by_label("All").click();
     window.run_steps(2);
-    assert_eq!(lab_of(&window).shown().count(), Method::ALL.len());
-    assert_eq!(lab_of(&window).layout().cells.len(), Method::ALL.len());
+    assert_eq!(lab_of(&window).shown().count(), Kind::all().count());
+    assert_eq!(lab_of(&window).layout().cells.len(), Kind::all().count());
     for picture in [Picture::Overlaid, Picture::Sphere, Picture::SideBySide] {
         press(&mut window, Modifiers::NONE, Key::V);
         assert_eq!(lab_of(&window).picture(), picture);
@@ -329,7 +329,10 @@ fn methods_and_pictures_are_switched() {
     }
     window.get_by_label("None").click();
     window.run_steps(2);
-    assert_eq!(lab_of(&window).shown().collect::<Vec<_>>(), [Method::Slerp]);
+    assert_eq!(
+        lab_of(&window).shown().collect::<Vec<_>>(),
+        [Method::Slerp.into()]
+    );
 }
 
 #[test]

@@ -62,6 +62,8 @@ fn settings(solver: SolverChoice) -> IkSettings {
     IkSettings {
         solver,
         iterations: 100,
+        // It is about solvers, not about what walkers do.
+        within_motion: Some(false),
         ..IkSettings::default()
     }
 }
@@ -144,6 +146,7 @@ fn without_following_the_target_waits_for_the_solver() {
     let mut session = walk_with("LeftHand");
     session.set_ik(IkSettings {
         is_live: false,
+        within_motion: Some(false),
         ..IkSettings::default()
     });
     let before = shown(&session);
@@ -171,6 +174,7 @@ fn without_following_the_target_waits_for_the_solver() {
 #[test]
 fn every_step_shows_the_update_before_it_is_made() {
     let mut session = walk_with("LeftHand");
+    session.set_ik(settings(SolverChoice::Automatic));
     pull(&mut session, Vec2::new(60.0, -90.0), 4);
     session.drop_handle();
     let kept = shown(&session);

@@ -130,6 +130,38 @@ fn reading_can_be_stopped() {
     ));
 }
 
+/// A pipe that nobody writes to, as a disk that does not answer: what is stopped is gone at once, not when the
+/// system lets go of it.
+#[cfg(unix)]
+#[test]
+fn a_file_that_never_comes_can_be_stopped() {
+    let path = std::env::temp_dir().join(format!("posekit-pipe-{}.bvh", std::process::id()));
+    let made = std::process::Command::new("mkfifo").arg(&path).status();
+    if !made.is_ok_and(|status| status.success()) {
+        eprintln!("skipped: there is no mkfifo");
+        return;
+    }
+    let mut loader = loader();
+    loader.read(Input::Path(path.clone()), Purpose::Beside);
+    assert!(loader.take_events().is_empty());
+    assert_eq!(loader.jobs().len(), 1);
+    let progress = Arc::clone(&loader.jobs()[0].progress);
+    progress.cancel();
+    let events = loader.take_events();
+    assert!(matches!(events[..], [Event::GivenUp { message: None, .. }]));
+    assert!(loader.jobs().is_empty() && !progress.is_finished());
+    // When it comes after all, nobody is told.
+    // It may have hung up already: then there is nobody to write to.
+    let _written = std::fs::write(&path, arm_text(3));
+    let start = Instant::now();
+    while !progress.is_finished() {
+        assert!(start.elapsed() < PATIENCE, "it does not end");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    assert!(loader.take_events().is_empty());
+    std::fs::remove_file(&path).expect("removed");
+}
+
 #[test]
 fn a_large_file_begins_before_it_is_read() {
     let frames = 400_000;

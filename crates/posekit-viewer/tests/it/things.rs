@@ -5,6 +5,7 @@ use egui_kittest::kittest::Queryable as _;
 use glam::{DQuat, DVec3, Vec3};
 use posekit::rotation::Axis;
 use posekit_formats::scene::{self, Scene};
+use posekit_viewer::command::{Command, apply};
 use posekit_viewer::gizmo::Handle;
 use posekit_viewer::panels::view::project;
 use posekit_viewer::state::animate::{Lane, LaneValue, Owner, Start, start};
@@ -251,6 +252,133 @@ fn the_camera_takes_the_views_place_and_is_keyed_with_auto_key() {
     let left = session.view_camera();
     assert!(near(left.eye, camera.eye), "{} {}", left.eye, camera.eye);
     assert_eq!(session.looks_through(), None);
+}
+
+/// How many keys a lane has.
+fn key_count(session: &Session, lane: Lane) -> usize {
+    let authored = session.authored().expect("it is authored");
+    authored.track(lane).map_or(0, |track| track.key_count())
+}
+
+/// A shot is blocked by two views: the camera is at each at its time and moves between, whether the first
+/// view made the camera, or found it where it is already.
+#[test]
+fn two_views_that_are_taken_make_a_camera_move() {
+    for is_added_before in [false, true] {
+        let mut session = session();
+        session.transport.go_to_frame(3);
+        if is_added_before {
+            session.add_thing(NewThing::Camera);
+        }
+        apply(Command::ToggleAutoKey, &mut session);
+        apply(Command::GoToStart, &mut session);
+        let first = session.view_camera();
+        apply(Command::CameraToView, &mut session);
+        for lane in [Lane::CameraPosition(0), Lane::CameraTarget(0)] {
+            assert_eq!(session.key_state(lane), KeyState::KeyHere, "{lane:?}");
+        }
+        session.transport.go_to_frame(12);
+        session.follow_changes();
+        apply(Command::TurnLeft, &mut session);
+        apply(Command::TurnLeft, &mut session);
+        let last = session.view_camera();
+        assert!(first.eye.distance(last.eye) > 0.2);
+        apply(Command::CameraToView, &mut session);
+        assert_eq!(key_count(&session, Lane::CameraPosition(0)), 2);
+        assert_eq!(key_count(&session, Lane::CameraTarget(0)), 2);
+        let eye_at = |session: &mut Session, frame: usize| {
+            session.transport.go_to_frame(frame);
+            session.scene_camera().expect("it is looked through").eye
+        };
+        assert!(eye_at(&mut session, 0).distance(first.eye) < 1e-4);
+        assert!(eye_at(&mut session, 12).distance(last.eye) < 1e-4);
+        // Played, it goes from one to the other without a stop.
+        let way: Vec<Vec3> = (0..=12).map(|frame| eye_at(&mut session, frame)).collect();
+        for pair in way.windows(2) {
+            assert!(pair[0].distance(pair[1]) > 1e-4, "{pair:?}");
+        }
+    }
+}
+
+/// Without auto-key a view is set as everything else is: for good while nothing is keyed, else until
+/// another time is shown.
+#[test]
+fn a_view_that_is_taken_without_auto_key_is_set_as_other_values_are() {
+    let mut session = session();
+    session.camera_to_view();
+    assert_eq!(key_count(&session, Lane::CameraPosition(0)), 0);
+    apply(Command::TurnLeft, &mut session);
+    let eye = session.view_camera().eye;
+    session.camera_to_view();
+    session.transport.go_to_frame(9);
+    session.follow_changes();
+    assert!(
+        vector(&session, Lane::CameraPosition(0))
+            .as_vec3()
+            .distance(eye)
+            < 1e-4
+    );
+    session.toggle_key(Lane::CameraPosition(0));
+    session.transport.go_to_frame(2);
+    session.follow_changes();
+    apply(Command::TurnLeft, &mut session);
+    session.camera_to_view();
+    assert_eq!(
+        session.key_state(Lane::CameraPosition(0)),
+        KeyState::Changed
+    );
+    session.transport.go_to_frame(3);
+    session.follow_changes();
+    assert_eq!(session.key_state(Lane::CameraPosition(0)), KeyState::Keyed);
+}
+
+/// The first light keeps the studio light; the switch is a step, saved with the scene; the last light that goes
+/// brings it back.
+#[test]
+fn the_studio_light_stays_until_it_is_switched_off() {
+    let mut session = session();
+    session.add_thing(NewThing::Light);
+    assert_eq!(session.studio_light(), Some(true));
+    let lit = session.scene();
+    assert!(lit.casting_lamp().is_none() && lit.is_lit());
+    session.set_studio_light(false);
+    assert!(session.scene().casting_lamp().is_some());
+    let read = |session: &Session| scene::read(&scene::write(scene_of(session))).expect("written");
+    assert!(!read(&session).studio_light);
+    session.undo();
+    assert_eq!(session.studio_light(), Some(true));
+    assert!(read(&session).studio_light);
+    session.redo();
+    session.remove_thing(LIGHT);
+    assert_eq!(
+        session.studio_light(),
+        Some(true),
+        "no room is without any light"
+    );
+}
+
+#[test]
+fn three_point_lights_are_one_click_and_one_step() {
+    let mut window = animating();
+    add(&mut window, "Three-point lights");
+    let session = viewer(&window).session();
+    let lights = &scene_of(session).lights;
+    let names: Vec<&str> = lights.iter().map(|light| light.name.as_str()).collect();
+    assert_eq!(names, ["key light", "fill light", "rim light"]);
+    assert_eq!(session.studio_light(), Some(false));
+    // From the viewer: the key light to the left and before, the rim light behind.
+    let view = session.view_camera();
+    let (right, _, back) = view.axes();
+    let side = |index: usize, axis: Vec3| {
+        let at = lights[index].shine.position.at(0.0).as_vec3();
+        (at - view.target).dot(axis)
+    };
+    assert!(side(0, right) < 0.0 && side(0, back) > 0.0);
+    assert!(side(1, right) > 0.0 && side(1, back) > 0.0);
+    assert!(side(2, back) < 0.0);
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    let session = viewer(&window).session();
+    assert!(scene_of(session).lights.is_empty() && session.studio_light() == Some(true));
 }
 
 #[test]

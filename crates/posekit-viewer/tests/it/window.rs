@@ -112,6 +112,25 @@ fn the_first_start_shows_the_sample_moving() {
     window.get_by_label("Sample walk");
 }
 
+/// Files are read at the same time; the small one is there long before the large one.
+#[test]
+fn clips_stand_in_the_order_in_which_they_were_given() {
+    let frames = [60_000, 3, 20_000, 5];
+    let inputs = frames.map(|frames| input(&format!("{frames}.bvh"), frames));
+    let window = laptop(inputs.to_vec());
+    let session = viewer(&window).session();
+    let names: Vec<&str> = session
+        .clips()
+        .iter()
+        .map(|open| open.clip.name.as_str())
+        .collect();
+    assert_eq!(names, ["60000.bvh", "3.bvh", "20000.bvh", "5.bvh"]);
+    let active = session.active_clip().expect("they are open");
+    assert_eq!(active.name, "60000.bvh", "the first that was given");
+    assert_eq!(session.shown().count(), 4);
+    assert_eq!(session.transport.frame_count(), 60_000);
+}
+
 #[test]
 fn space_pauses_and_arrows_step() {
     let mut window = laptop(vec![input("arm.bvh", 20)]);
@@ -344,7 +363,8 @@ fn dragging_turns_the_view_and_the_wheel_zooms() {
 #[test]
 fn light_and_dark_are_remembered_with_the_rest() {
     let mut window = laptop(vec![input("arm.bvh", 20)]);
-    for key in [Key::D, Key::G, Key::K, Key::N] {
+    press(&mut window, Modifiers::SHIFT, Key::G);
+    for key in [Key::D, Key::K, Key::N] {
         press(&mut window, Modifiers::NONE, key);
     }
     let settings = viewer(&window).settings();

@@ -1,7 +1,7 @@
 //! `posekit keys bake`: keys as a motion file.
 
-use std::ffi::OsString;
 use std::cell::Cell;
+use std::ffi::OsString;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 

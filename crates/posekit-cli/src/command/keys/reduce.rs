@@ -104,7 +104,9 @@ pub(super) fn run(args: &ReduceArgs, global: &Global) -> Result<(), Failure> {
             Ok(out.flush()?)
         }
         Destination::File(target) => {
-            write_whole(target, |file| write(&scene, &keys, args.euler, &motion, file))?;
+            write_whole(target, |file| {
+                write(&scene, &keys, args.euler, &motion, file)
+            })?;
             if !global.quiet {
                 console::note(&format!(
                     "wrote {}: {} in quaternions{}, {} that a key at every frame would take; within {} degrees and {} % of the height",

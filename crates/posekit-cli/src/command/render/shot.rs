@@ -301,6 +301,7 @@ fn surroundings(scene: &scene::Scene, file: &str, warnings: &mut Vec<String>) ->
         Prop::new(&shape, prop.transform.clone())
     };
     Surroundings {
+        studio_light: scene.studio_light,
         props: scene.props.iter().map(prop).collect(),
         lights: scene
             .lights

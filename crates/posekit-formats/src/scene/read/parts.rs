@@ -32,6 +32,13 @@ pub(super) fn scene(
         let message = format!("the range is {frames:e} frames long, of at most {MOST_FRAMES:e}");
         fields.problem(problems, SceneProblemKind::Inconsistent, message);
     }
+    let studio_light = fields.optional("studio_light").map(|node| {
+        let on = node.truth();
+        if on.is_none() {
+            problems.expected(&node, "true or false");
+        }
+        on.unwrap_or(true)
+    });
     let source = fields.required("skeleton", problems);
     let skeleton = source.and_then(|node| skeleton(&node, problems));
     let mut motions = Vec::new();
@@ -63,6 +70,8 @@ pub(super) fn scene(
         motions,
         tracks,
         cameras,
+        // Files from before the switch go without where they have lights.
+        studio_light: studio_light.unwrap_or(lights.is_empty()),
         lights,
         props,
     })

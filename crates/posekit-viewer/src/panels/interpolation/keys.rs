@@ -1,17 +1,19 @@
 //! The left side: a preset and what to look for in it, and the keys with their angles.
 
 use egui::{Button, ComboBox, DragValue, RichText, ScrollArea, Sense, Slider, Ui, vec2};
-use posekit::inbetween::Preset;
 use posekit::rotation::Axis;
 
 use super::super::row;
 use crate::icons::{Icon, sized_icon};
-use crate::state::interpolation::case::{MOST_KEYS, ORDERS, WIDEST_DEG};
+use crate::state::interpolation::case::{LabPreset, MOST_KEYS, ORDERS, WIDEST_DEG};
 use crate::state::interpolation::{InterpolationLab, Span};
 use crate::theme::{CURVES, GAP, Palette};
 
 /// Width of a number at the right of its slider.
 const NUMBER: f32 = 70.0;
+
+/// Sliders go a turn to either side, numbers farther.
+const SLIDER_DEG: f64 = 360.0;
 
 /// Shows it.
 pub(super) fn show(ui: &mut Ui, lab: &mut InterpolationLab) {
@@ -51,11 +53,11 @@ fn presets(ui: &mut Ui, lab: &mut InterpolationLab) {
     let now = lab.case().preset();
     let mut chosen = None;
     ComboBox::from_id_salt("preset")
-        .selected_text(now.map_or("Your own", Preset::title))
+        .selected_text(now.map_or("Your own", LabPreset::title))
         .width(ui.available_width())
         .height(360.0)
         .show_ui(ui, |ui| {
-            for preset in Preset::ALL {
+            for preset in LabPreset::all() {
                 if ui
                     .selectable_label(now == Some(preset), preset.title())
                     .on_hover_text(preset.says())
@@ -72,7 +74,7 @@ fn presets(ui: &mut Ui, lab: &mut InterpolationLab) {
     }
     let says = lab.case().preset().map_or(
         "Set the angles, drag the rings of start and end, or choose a preset.",
-        Preset::says,
+        LabPreset::says,
     );
     let quiet = Palette::in_ui(ui).quiet;
     ui.label(RichText::new(says).small().color(quiet));
@@ -186,7 +188,8 @@ fn slider(ui: &mut Ui, lab: &mut InterpolationLab, (key, axis): (usize, usize), 
         let (rect, _) = ui.allocate_exact_size(vec2(14.0, 22.0), Sense::hover());
         row::text_in(ui, rect, RichText::new(letter.to_string()).strong(), color);
         ui.spacing_mut().slider_width = (ui.available_width() - NUMBER - GAP).max(30.0);
-        let slider = Slider::new(&mut shown, -WIDEST_DEG..=WIDEST_DEG)
+        let slider = Slider::new(&mut shown, -SLIDER_DEG..=SLIDER_DEG)
+            .clamping(egui::SliderClamping::Never)
             .show_value(false)
             .smart_aim(false)
             .trailing_fill(false);

@@ -8,7 +8,7 @@ use posekit::inbetween::Method;
 use super::super::row;
 use super::color;
 use crate::state::interpolation::colors::hex_of;
-use crate::state::interpolation::{InterpolationLab, Span, Way};
+use crate::state::interpolation::{InterpolationLab, Kind, Span, Way};
 use crate::state::readout::fixed;
 use crate::theme::{GAP, Palette};
 
@@ -39,14 +39,14 @@ pub(super) fn show(ui: &mut Ui, lab: &mut InterpolationLab) {
             (
                 "None",
                 "Show slerp alone",
-                (|method| method == Method::Slerp) as fn(Method) -> bool,
+                (|kind| kind == Kind::Between(Method::Slerp)) as fn(Kind) -> bool,
             ),
             ("All", "Show every method", |_| true),
         ] {
             let button = Button::new(RichText::new(name).small());
             if ui.add(button).on_hover_text(says).clicked() {
-                for method in Method::ALL {
-                    lab.set_shown(method, choose(method));
+                for kind in Kind::all() {
+                    lab.set_shown(kind, choose(kind));
                 }
             }
             ui.add_space(GAP);
@@ -58,8 +58,8 @@ pub(super) fn show(ui: &mut Ui, lab: &mut InterpolationLab) {
         .auto_shrink([false, false])
         .show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 0.0;
-            for method in Method::ALL {
-                method_row(ui, lab, method, &columns);
+            for kind in Kind::all() {
+                kind_row(ui, lab, kind, &columns);
             }
             ui.add_space(2.0 * GAP);
             ui.spacing_mut().item_spacing.y = GAP;
@@ -92,10 +92,10 @@ fn headings(ui: &mut Ui, columns: &[f32; 4]) {
     }
 }
 
-fn method_row(ui: &mut Ui, lab: &mut InterpolationLab, method: Method, columns: &[f32; 4]) {
-    let is_shown = lab.is_shown(method);
+fn kind_row(ui: &mut Ui, lab: &mut InterpolationLab, kind: Kind, columns: &[f32; 4]) {
+    let is_shown = lab.is_shown(kind);
     let palette = Palette::in_ui(ui);
-    let word = method.to_string();
+    let word = kind.name(lab.case().order());
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
     response.widget_info(|| {
         egui::WidgetInfo::selected(egui::Role::CheckBox, true, is_shown, word.clone())
@@ -103,7 +103,7 @@ fn method_row(ui: &mut Ui, lab: &mut InterpolationLab, method: Method, columns: 
     if response.hovered() {
         ui.painter().rect_filled(rect, 5.0, palette.hover);
     }
-    swatch(ui, rect, color(hex_of(method)), is_shown);
+    swatch(ui, rect, color(hex_of(kind)), is_shown);
     let text = if is_shown {
         palette.text
     } else {
@@ -114,7 +114,7 @@ fn method_row(ui: &mut Ui, lab: &mut InterpolationLab, method: Method, columns: 
         pos2(rect.left() + columns[0] - 30.0, rect.bottom()),
     );
     row::text_in(ui, name, RichText::new(&word), text);
-    if let Some(way) = lab.way(method) {
+    if let Some(way) = lab.way(kind) {
         for (number, end) in numbers(way).into_iter().zip(columns) {
             let color = match number.stands_out {
                 true => palette.warning,
@@ -129,8 +129,8 @@ fn method_row(ui: &mut Ui, lab: &mut InterpolationLab, method: Method, columns: 
             );
         }
     }
-    if response.on_hover_text(says(method)).clicked() {
-        lab.set_shown(method, !is_shown);
+    if response.on_hover_text(says_of(kind)).clicked() {
+        lab.set_shown(kind, !is_shown);
     }
 }
 
@@ -163,8 +163,8 @@ fn numbers(way: &Way) -> [Number; 4] {
         _ => format!("{}k", fixed(deg / 1e3, 0)),
     };
     [
-        plain(match way.method {
-            Method::Slerp => "\u{2013}".to_owned(),
+        plain(match way.kind {
+            Kind::Between(Method::Slerp) => "\u{2013}".to_owned(),
             _ => fixed(way.most_deviation_deg, 2),
         }),
         plain(speed(way.least_speed_deg)),
@@ -174,6 +174,16 @@ fn numbers(way: &Way) -> [Number; 4] {
             stands_out: way.least_determinant < 0.999,
         },
     ]
+}
+
+/// What it does, in a sentence.
+fn says_of(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Between(method) => says(method),
+        Kind::Curves => {
+            "Straight curves of the angles at the left, in their order, as in a graph editor: whole turns count"
+        }
+    }
 }
 
 /// What a method does, in a sentence.
@@ -202,7 +212,10 @@ pub(super) const fn says(method: Method) -> &'static str {
 }
 
 fn notes(ui: &mut Ui, lab: &InterpolationLab) {
-    let quiet = Palette::in_ui(ui).quiet;
+    let Palette { quiet, warning, .. } = Palette::in_ui(ui);
+    for lost in lab.lost_turns() {
+        ui.label(RichText::new(lost.text()).small().color(warning));
+    }
     let lerp = "matrix and lerp make no rotations in between: how far they stray and how fast they turn \
                 is told of the nearest rotation.";
     ui.label(RichText::new(lerp).small().color(quiet));

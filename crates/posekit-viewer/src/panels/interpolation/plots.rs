@@ -10,7 +10,9 @@ use super::super::row;
 use super::{InterpolationPanel, clip, color};
 use crate::icons::{Icon, sized_icon};
 use crate::state::interpolation::colors::hex_of;
-use crate::state::interpolation::{InterpolationLab, Page};
+use crate::state::interpolation::kind::curves;
+use crate::state::interpolation::ways::STEPS;
+use crate::state::interpolation::{InterpolationLab, Kind, Page, Span};
 use crate::theme::{CURVES, GAP, Palette};
 
 /// Under this width there is one plot.
@@ -68,7 +70,7 @@ impl Quantity {
             Self::Determinant => "1 for a rotation: the factor by which volumes change",
             Self::Shear => "How far axes are from right angles, in degrees",
             Self::Angles => {
-                "The Euler angles of slerp's orientations in the order chosen at the left: what an animator sees in a graph editor"
+                "The Euler angles of slerp's orientations in the order chosen at the left; dashed the curves of the angles as they were set, where those are shown"
             }
         }
     }
@@ -227,6 +229,7 @@ fn plot(
             let line = line.color(hex).width(if is_slerp { 2.6 } else { 1.6 });
             let line = match name.as_str() {
                 "squad" | "nlerp" => line.style(LineStyle::dashed_loose()),
+                name if name.starts_with("curve ") => line.style(LineStyle::dashed_dense()),
                 _ => line,
             };
             plot.line(line);
@@ -245,19 +248,57 @@ type Curve = (String, Vec<[f64; 2]>, egui::Color32);
 
 fn lines(lab: &InterpolationLab, quantity: Quantity) -> Vec<Curve> {
     if quantity == Quantity::Angles {
-        return angles(lab);
+        let mut lines = angles(lab);
+        if lab.is_shown(Kind::Curves) {
+            lines.extend(angles_of_curves(lab));
+        }
+        return lines;
     }
     let mut lines: Vec<Curve> = lab
         .ways()
         .map(|way| {
             let points = way.steps.iter().map(|step| [step.t, quantity.value(step)]);
             let finite = points.filter(|point| point[1].is_finite());
-            let hex = color(hex_of(way.method));
-            (way.method.to_string(), finite.collect(), hex)
+            let hex = color(hex_of(way.kind));
+            let name = way.kind.name(lab.case().order());
+            (name, finite.collect(), hex)
         })
         .collect();
     lines.reverse();
     lines
+}
+
+/// The angles as they were set, with straight pieces between the keys.
+fn angles_of_curves(lab: &InterpolationLab) -> Vec<Curve> {
+    let (case, length) = (lab.case(), lab.playback.length());
+    #[expect(clippy::cast_precision_loss, reason = "a small number")]
+    let start = match lab.span() {
+        Span::Pair => case.gap() as f64,
+        Span::AllKeys => 0.0,
+    };
+    let Some(curves) = curves(case) else {
+        return Vec::new();
+    };
+    let order = case.order();
+    let axes = order.axes().iter().enumerate();
+    axes.map(|(index, axis)| {
+        let points = (0..=STEPS).map(|step| {
+            #[expect(clippy::cast_precision_loss, reason = "a small number")]
+            let t = length * step as f64 / STEPS as f64;
+            [t, curves.angles_deg().sample(start + t)[index]]
+        });
+        let name = format!("curve {} {}", axis.letter(), index + 1);
+        (name, points.collect(), color_of_axis(*axis))
+    })
+    .collect()
+}
+
+fn color_of_axis(axis: Axis) -> egui::Color32 {
+    match axis {
+        Axis::X => CURVES[0],
+        Axis::Y => CURVES[1],
+        Axis::Z => CURVES[2],
+    }
 }
 
 /// The angles of slerp's orientations, run on from step to step.
@@ -281,12 +322,8 @@ fn angles(lab: &InterpolationLab) -> Vec<Curve> {
     }
     let axes = order.axes().iter().enumerate().zip(curves);
     axes.map(|((index, axis), curve)| {
-        let color = match axis {
-            Axis::X => CURVES[0],
-            Axis::Y => CURVES[1],
-            Axis::Z => CURVES[2],
-        };
-        (format!("{} {}", axis.letter(), index + 1), curve, color)
+        let name = format!("{} {}", axis.letter(), index + 1);
+        (name, curve, color_of_axis(*axis))
     })
     .collect()
 }

@@ -10,7 +10,7 @@ use crate::gizmo::{self, Handle, Snap, Viewport};
 use crate::picture::painter::{Painter, Place, Subject};
 use crate::state::display::Look;
 use crate::state::interpolation::colors::hex_of;
-use crate::state::interpolation::{InterpolationLab, Layout, Picture, layout};
+use crate::state::interpolation::{InterpolationLab, Kind, Layout, Picture, layout};
 use crate::state::readout::fixed;
 use crate::theme::Palette;
 
@@ -180,10 +180,10 @@ fn captions(ui: &Ui, canvas: &Canvas, rect: Rect, lab: &InterpolationLab) {
     }
     match lab.picture() {
         Picture::SideBySide => {
-            for (method, cell) in lab.shown().zip(&layout.cells) {
+            for (kind, cell) in lab.shown().zip(&layout.cells) {
                 let cell = cell.translate(rect.min.to_vec2());
                 let middle = pos2(cell.center().x, cell.bottom() - layout::CAPTION);
-                caption(canvas, middle, cell.width(), (lab, method), &palette);
+                caption(canvas, middle, cell.width(), (lab, kind), &palette);
             }
         }
         Picture::Overlaid => legend(canvas, rect, lab, &palette),
@@ -199,20 +199,21 @@ fn caption(
     canvas: &Canvas,
     top: egui::Pos2,
     width: f32,
-    (lab, method): (&InterpolationLab, Method),
+    (lab, kind): (&InterpolationLab, Kind),
     palette: &Palette,
 ) {
     let name = FontId::proportional(13.0);
-    let hue = color(hex_of(method));
-    let galley = canvas.layout_no_wrap(method.to_string(), name, palette.text);
+    let hue = color(hex_of(kind));
+    let word = kind.name(lab.case().order());
+    let galley = canvas.layout_no_wrap(word, name, palette.text);
     let dot = 8.0;
     let left = top.x - 0.5 * (galley.size().x + dot + 4.0);
     let row = top.y + 0.5 * galley.size().y;
     canvas.circle_filled(pos2(left + 0.5 * dot, row), 0.5 * dot, hue);
     canvas.galley(pos2(left + dot + 4.0, top.y), galley, palette.text);
-    let now = lab.now(method);
-    let text = if method.makes_rotations() {
-        if method == Method::Slerp {
+    let now = lab.now(kind);
+    let text = if kind.makes_rotations() {
+        if kind == Kind::Between(Method::Slerp) {
             return;
         }
         let off = fixed(now.deviation_deg, 1);
@@ -232,7 +233,7 @@ fn caption(
     };
     let small = FontId::proportional(11.0);
     let place = pos2(top.x, top.y + 15.0);
-    let is_no_rotation = !method.makes_rotations() && (now.blend.determinant() - 1.0).abs() > 5e-3;
+    let is_no_rotation = !kind.makes_rotations() && (now.blend.determinant() - 1.0).abs() > 5e-3;
     let ink = if is_no_rotation {
         palette.warning
     } else {
@@ -261,9 +262,10 @@ fn tips(canvas: &Canvas, rect: Rect, lab: &InterpolationLab, palette: &Palette) 
 fn legend(canvas: &Canvas, rect: Rect, lab: &InterpolationLab, palette: &Palette) {
     let font = FontId::proportional(12.0);
     let mut row = rect.bottom() - 10.0;
-    let shown: Vec<Method> = lab.shown().collect();
-    for method in shown.into_iter().rev() {
-        let galley = canvas.layout_no_wrap(method.to_string(), font.clone(), palette.text);
+    let shown: Vec<Kind> = lab.shown().collect();
+    for kind in shown.into_iter().rev() {
+        let word = kind.name(lab.case().order());
+        let galley = canvas.layout_no_wrap(word, font.clone(), palette.text);
         row -= galley.size().y + 1.0;
         let right = rect.right() - 12.0;
         canvas.galley(
@@ -272,6 +274,6 @@ fn legend(canvas: &Canvas, rect: Rect, lab: &InterpolationLab, palette: &Palette
             palette.text,
         );
         let dot = pos2(right - galley.size().x - 8.0, row + 0.5 * galley.size().y);
-        canvas.circle_filled(dot, 4.0, color(hex_of(method)));
+        canvas.circle_filled(dot, 4.0, color(hex_of(kind)));
     }
 }

@@ -28,6 +28,11 @@ pub fn show(ui: &mut Ui, session: &mut Session) {
                     session.add_thing(what);
                 }
             }
+            let three = ui.button("Three-point lights");
+            let says = "A key, a fill and a rim light around what the view looks at, in place of the studio light";
+            if three.on_hover_text(says).clicked() {
+                session.add_three_point_lights();
+            }
         });
         button.on_hover_text("A camera where the view is, a light, or a prop beside the figure");
     });
@@ -42,6 +47,11 @@ pub fn show(ui: &mut Ui, session: &mut Session) {
             thing_row(ui, session, owner);
         }
     });
+    if let Some(mut on) = session.studio_light() {
+        ui.checkbox(&mut on, "Studio light")
+            .on_hover_text("The light that pictures have without any lights; it casts the shadow");
+        session.set_studio_light(on);
+    }
     let picked = session.picked();
     if let Some(picked) = picked {
         ui.add_space(GAP);

@@ -5,6 +5,8 @@ use egui::{
     Align2, CursorIcon, FontId, PointerButton, Rect, Response, Sense, Stroke, Ui, pos2, vec2,
 };
 
+use posekit::keyframe::edit::SAME_TIME_SECS;
+
 use crate::panels::transport::clock_text;
 use crate::state::animate::Authored;
 use crate::state::edit::Gesture;
@@ -33,6 +35,8 @@ pub struct TimeView {
     /// the range is taken into view.
     seen: Option<(f64, f64)>,
     held: Option<Held>,
+    /// Where the playhead was when it was looked at last.
+    playhead_secs: Option<f64>,
 }
 
 /// What is dragged on the ruler.
@@ -82,6 +86,41 @@ impl TimeView {
     /// Takes a stretch of time into view.
     pub fn fit(&mut self, secs: [f64; 2], axis: &Axis) {
         self.seen = Some(fitted(secs, axis.rect.width(), axis.frame_secs));
+    }
+
+    /// Takes the scene's range, the playhead, and keys beyond them into view.
+    pub fn fit_all(&mut self, keys: Option<[f64; 2]>, playhead_secs: f64, axis: &Axis) {
+        let [start, end] = axis.range_secs;
+        let [first, last] = keys.unwrap_or(axis.range_secs);
+        let low = start.min(first).min(playhead_secs);
+        let high = end.max(last).max(playhead_secs);
+        if (low - start).abs() <= SAME_TIME_SECS && (high - end).abs() <= SAME_TIME_SECS {
+            // As long as nothing else is asked for, the range stays in view however it is dragged.
+            self.fit_range();
+        } else {
+            self.fit([low, high], axis);
+        }
+    }
+
+    /// Brings the playhead into view where it has jumped out of it. What moves under it while it plays
+    /// does not drag the view along.
+    pub fn follow_playhead(&mut self, axis: &Axis, session: &Session) {
+        let now = session.scene_secs();
+        let before = self.playhead_secs.replace(now);
+        let has_jumped = before.is_some_and(|before| (before - now).abs() > SAME_TIME_SECS);
+        if !has_jumped || session.transport.is_playing() || self.held.is_some() {
+            return;
+        }
+        let [left, right] = axis.seen_secs();
+        let margin = axis.secs_of(MARGIN).min(0.5 * (right - left));
+        let out = if now < left {
+            now - margin - left
+        } else if now > right {
+            now + margin - right
+        } else {
+            return;
+        };
+        self.seen = Some((left + out, axis.secs_per_point));
     }
 
     /// Zoom with the wheel or a pinch about the pointer; move with the middle button, with shift and the
@@ -427,6 +466,22 @@ mod tests {
             (0, -1, 20)
         );
         assert!((axis.snapped(1.26) - 1.3).abs() < 1e-9);
+    }
+
+    #[test]
+    fn all_is_never_less_than_the_range_and_the_playhead() {
+        let mut view = TimeView::default();
+        let one_key = Some([1.0, 1.0]);
+        view.fit_all(one_key, 2.0, &axis(&view));
+        assert_eq!(view, TimeView::default());
+        for (keys, now) in [(Some([0.5, 1.5]), 2.0), (None, 0.5), (one_key, 0.5)] {
+            view.fit_all(keys, now, &axis(&view));
+            let [start, end] = axis(&view).seen_secs();
+            assert!(
+                start < 0.5 && end > 3.0 && end - start < 2.8,
+                "{start} {end}"
+            );
+        }
     }
 
     #[test]

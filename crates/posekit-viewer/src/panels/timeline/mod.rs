@@ -89,6 +89,12 @@ impl Timeline {
         self.rect
     }
 
+    /// Its axis in the last picture of the dope sheet.
+    #[must_use]
+    pub fn axis(&self) -> Option<Axis> {
+        self.axis
+    }
+
     /// Tells whether a clip is about to get its keys.
     pub fn set_waiting(&mut self, is_waiting: bool) {
         self.is_waiting = is_waiting;
@@ -215,9 +221,9 @@ impl Timeline {
         let span = times
             .map(|time| [time, time])
             .reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
-        match span {
+        match span.filter(|_| selected) {
             Some(span) => self.time.fit(span, &axis),
-            None => self.time.fit_range(),
+            None => self.time.fit_all(span, session.scene_secs(), &axis),
         }
     }
 }
@@ -325,6 +331,7 @@ fn show_dope(ui: &mut Ui, rect: Rect, session: &mut Session, timeline: &mut Time
         return;
     };
     timeline.axis = Some(axis);
+    timeline.time.follow_playhead(&axis, session);
     axis::ruler(ui, &mut timeline.time, &axis, ruler, session);
     let room = Room { names, body, axis };
     ui.painter()

@@ -26,6 +26,10 @@ impl Pointed {
 /// Lets the pointer have its way with the gizmo.
 pub(super) fn interact(ui: &Ui, response: &Response, session: &mut Session) -> Pointed {
     let viewport = Viewport::new(session.view_camera(), response.rect);
+    if !session.is_dragging() {
+        let pointer = ui.input(|i| i.pointer.latest_pos());
+        session.begin_in_hand(pointer, &viewport);
+    }
     if session.is_dragging() {
         return drag(ui, session, &viewport);
     }
@@ -57,17 +61,20 @@ pub(super) fn interact(ui: &Ui, response: &Response, session: &mut Session) -> P
 
 fn drag(ui: &Ui, session: &mut Session, viewport: &Viewport) -> Pointed {
     let snap = snap(ui, session);
-    let (place, is_down, fingers) = ui.input(|i| {
-        let is_down = i.pointer.primary_down();
-        (i.pointer.latest_pos(), is_down, i.multi_touch().is_some())
+    let (place, fingers) = ui.input(|i| (i.pointer.latest_pos(), i.multi_touch().is_some()));
+    // What is in hand is let go with a click; a handle, with the button that took it.
+    let (ends, is_given_up) = ui.input(|i| match session.is_in_hand() {
+        true => (i.pointer.primary_released(), i.pointer.secondary_released()),
+        false => (!i.pointer.primary_down(), false),
     });
-    if fingers {
+    if fingers || is_given_up {
         session.cancel_drag();
     }
+    session.follow_axis(viewport);
     if let Some(place) = place {
         session.drag_to(place, viewport, snap);
     }
-    if !is_down {
+    if ends {
         session.drop_handle();
     }
     ui.ctx().set_cursor_icon(egui::CursorIcon::Grabbing);

@@ -59,19 +59,27 @@ fn tool_choice(ui: &mut Ui, session: &Session, asked: &mut Asked) {
                 Tool::Turn | Tool::MoveAndTurn => Tool::Turn,
             };
             let options = [
-                (Tool::Move, "Place", "Bring it to a place"),
+                (
+                    Tool::Move,
+                    "Place",
+                    "Bring it to a place; G moves it with the pointer",
+                ),
                 (
                     Tool::Turn,
                     "Place and turn",
-                    "Bring it to a place, turned in a certain way",
+                    "Bring it to a place, turned in a certain way; R turns it with the pointer",
                 ),
             ];
             (chosen, options)
         }
         Handles::None | Handles::Joints => {
             let options = [
-                (Tool::Move, "Move", "Arrows: move what the file lets move"),
-                (Tool::Turn, "Turn", "Rings: turn"),
+                (
+                    Tool::Move,
+                    "Move",
+                    "Arrows: move what the file lets move; G moves it with the pointer",
+                ),
+                (Tool::Turn, "Turn", "Rings: turn; R turns with the pointer"),
             ];
             (tools.tool, options)
         }
@@ -132,6 +140,10 @@ fn hint(ui: &Ui, room: Rect, session: &Session) {
 }
 
 fn text(session: &Session) -> String {
+    if session.is_in_hand() {
+        return "Click or Enter: keep  \u{b7}  X, Y, Z: one axis  \u{b7}  Ctrl: in steps  \u{b7}  Esc: give up"
+            .to_owned();
+    }
     if session.is_dragging() {
         return "Ctrl: in steps  \u{b7}  Esc: let go".to_owned();
     }
@@ -146,7 +158,10 @@ fn text(session: &Session) -> String {
         return "I: key this pose  \u{b7}  Alt+R: give it up".to_owned();
     }
     if !session.can_edit() {
-        return "The rest pose is shown; the motion can be edited  (R)".to_owned();
+        return tip(
+            "The rest pose is shown; the motion can be edited",
+            Command::ToggleRest,
+        );
     }
     if session.stepper().is_some() {
         return "PageDown: next update  \u{b7}  PageUp: back  \u{b7}  Esc: end".to_owned();

@@ -25,8 +25,9 @@ use std::sync::Arc;
 use posekit::keyframe::Animation;
 use posekit::motion::{FrameTime, Motion};
 use posekit::pose::LocalPose;
+use posekit::rotation::EulerOrder;
 use posekit::skeleton::{JointId, Skeleton};
-use posekit_formats::scene::{FileMotion, MotionFileError, Scene, Shot, ShotError};
+use posekit_formats::scene::{FileMotion, JointValues, MotionFileError, Scene, Shot, ShotError};
 
 pub use lane::{KeyId, Lane, LaneTrack, LaneValue, Owner, TrackValue};
 pub use start::{Start, start};
@@ -54,6 +55,8 @@ pub struct Authored {
     state: State,
     history: History<State>,
     files: Files,
+    /// The order of angles that joints have in the skeleton's own file, by their unique names.
+    orders: BTreeMap<String, EulerOrder>,
     shot: Shot,
     now_secs: f64,
     next_revision: u64,
@@ -79,6 +82,7 @@ impl Authored {
             },
             history: History::default(),
             files,
+            orders: BTreeMap::new(),
             shot,
             next_revision: 1,
             saved: None,
@@ -91,6 +95,33 @@ impl Authored {
     pub fn in_file(mut self, path: Option<PathBuf>) -> Self {
         self.set_saved(path);
         self
+    }
+
+    /// The same, with the order of angles that joints have in the skeleton's own file, by unique names.
+    #[must_use]
+    pub fn with_orders(mut self, orders: BTreeMap<String, EulerOrder>) -> Self {
+        self.orders = orders;
+        self
+    }
+
+    /// The order in which a joint's angles are told: that of its track, else that of the skeleton's file, else
+    /// `ZXY`.
+    #[must_use]
+    pub fn order_of(&self, joint: JointId) -> EulerOrder {
+        if joint.index() >= self.skeleton().joint_count() {
+            return EulerOrder::ZXY;
+        }
+        let name = self.skeleton().unique_name(joint);
+        let tracks = self.scene().tracks.iter();
+        let keyed = tracks
+            .filter(|track| track.joint == name)
+            .find_map(|track| match &track.values {
+                JointValues::Rotation { euler, .. } => euler.as_ref().map(|euler| euler.order),
+                JointValues::EulerRotation(track) => Some(track.order()),
+                JointValues::Translation(_) => None,
+            });
+        let in_file = self.orders.get(name).copied();
+        keyed.or(in_file).unwrap_or(EulerOrder::ZXY)
     }
 
     /// The scene. Files are named by where they are on this machine.

@@ -82,7 +82,8 @@ pub fn start(
             scene.set_animation(&reduction.animation, None);
         }
     }
-    Authored::new(scene, files).map_err(|error| error.to_string())
+    let authored = Authored::new(scene, files).map_err(|error| error.to_string())?;
+    Ok(authored.with_orders(clip.orders()))
 }
 
 /// All of a pose as keys at the start.

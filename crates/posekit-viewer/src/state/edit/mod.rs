@@ -64,6 +64,15 @@ pub struct ClipEdits {
 }
 
 impl ClipEdits {
+    /// No edits yet; the first reaches the frames around as `spread` says.
+    #[must_use]
+    pub fn with_spread(spread: Spread) -> Self {
+        Self {
+            spread,
+            ..Self::default()
+        }
+    }
+
     /// The state.
     #[must_use]
     pub fn state(&self) -> &EditState {

@@ -2,6 +2,7 @@
 //! way step by step. The solvers themselves are the library's.
 
 mod problem;
+mod ranges;
 mod solvers;
 mod step;
 
@@ -9,7 +10,10 @@ use glam::{Quat, Vec3};
 use posekit::ik::{IkOutcome, IkReport};
 use posekit::skeleton::JointId;
 
-pub use problem::{ProblemParts, auto_start, chain_joints, feet_and_hands, problem};
+pub use problem::{
+    ProblemParts, auto_start, chain_joints, channel_limits, feet_and_hands, problem,
+};
+pub use ranges::ranges_within;
 pub use solvers::{SolverChoice, choices, solver_name};
 pub use step::Stepper;
 
@@ -81,6 +85,8 @@ pub struct IkSettings {
     pub tolerance: f64,
     /// Whether the figure follows while the target is dragged.
     pub is_live: bool,
+    /// Whether joints keep within what they do in the clip's motion; `None` for captured clips only.
+    pub within_motion: Option<bool>,
 }
 
 /// The iterations that can be chosen.
@@ -97,6 +103,7 @@ impl Default for IkSettings {
             iterations: 20,
             tolerance: 1e-4,
             is_live: true,
+            within_motion: None,
         }
     }
 }
@@ -121,7 +128,7 @@ pub fn outcome_text(outcome: IkOutcome, length: impl Fn(f64) -> String) -> Strin
         IkOutcome::Reached => "Reached".to_owned(),
         IkOutcome::OutOfReach { by } => format!("Out of reach by {}", length(by)),
         IkOutcome::IterationLimit => "Not there yet: more iterations may help".to_owned(),
-        IkOutcome::LimitsInTheWay => "Limits of joints are in the way".to_owned(),
+        IkOutcome::LimitsInTheWay => "Limits of joints are in the way: see Limits above".to_owned(),
         IkOutcome::Stalled => "At rest short of the target".to_owned(),
         IkOutcome::InvalidTarget { .. } => "The target is no place".to_owned(),
         _ => "Not reached".to_owned(),

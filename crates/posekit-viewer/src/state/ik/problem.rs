@@ -27,6 +27,8 @@ pub struct ProblemParts<'a> {
     pub pins: &'a [Pin],
     /// How it is solved.
     pub settings: &'a IkSettings,
+    /// What joints can do.
+    pub limits: &'a Arc<JointLimits>,
 }
 
 /// Where the limb of a joint starts: a person's arm at the shoulder and leg at the hip, for what hangs
@@ -110,7 +112,7 @@ pub fn problem(parts: &ProblemParts<'_>) -> (IkProblem, f32) {
         // The file has nowhere to write a root that moves.
         problem.base = Base::Root;
     }
-    problem.limits = Arc::new(limits(parts.document));
+    problem.limits = Arc::clone(parts.limits);
     problem.stop.position_tolerance = parts.settings.tolerance * f64::from(reach);
     problem.stop.max_iterations = parts.settings.iterations;
     problem.trace = TraceDetail::None;
@@ -153,7 +155,8 @@ fn add_limbs_of_pins(skeleton: &Skeleton, problem: &mut IkProblem, pins: &[IkTar
 }
 
 /// Joints turn as far as their channels can say.
-fn limits(document: &Bvh) -> JointLimits {
+#[must_use]
+pub fn channel_limits(document: &Bvh) -> JointLimits {
     let mut limits = JointLimits::default();
     for (index, joint) in document.joints.iter().enumerate() {
         if !joint.is_end_site {

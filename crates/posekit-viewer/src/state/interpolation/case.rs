@@ -11,13 +11,71 @@ use posekit::rotation::EulerOrder;
 /// Keys there may be.
 pub const MOST_KEYS: usize = 12;
 
-/// Angles reach so far to either side, degrees: two turns are all that a quaternion tells apart.
-pub const WIDEST_DEG: f64 = 360.0;
+/// Angles reach so far to either side, degrees.
+pub const WIDEST_DEG: f64 = 720.0;
+
+/// Two turns are all that a quaternion tells apart.
+const OF_QUATERNION_DEG: f64 = 720.0;
 
 /// The orders that angles can be given in: every one that can make every rotation.
 pub const ORDERS: [&str; 12] = [
     "XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX", "XYX", "XZX", "YXY", "YZY", "ZXZ", "ZYZ",
 ];
+
+/// Orientations that show something.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LabPreset {
+    /// One that `posekit slerp` has, too.
+    OfCommand(Preset),
+    /// Angles that go around more than once, which orientations do not tell.
+    WholeTurns,
+}
+
+impl From<Preset> for LabPreset {
+    fn from(preset: Preset) -> Self {
+        Self::OfCommand(preset)
+    }
+}
+
+/// The angles of [`LabPreset::WholeTurns`], in the order `YXZ`: leaning, so that the turn is seen.
+const WHOLE_TURNS_DEG: [[f64; 3]; 4] = [
+    [0.0, 20.0, 0.0],
+    [360.0, 20.0, 0.0],
+    [-360.0, 20.0, 0.0],
+    [-90.0, 20.0, 0.0],
+];
+
+impl LabPreset {
+    /// All of them, in the order in which they are offered.
+    pub fn all() -> impl Iterator<Item = Self> {
+        Preset::ALL
+            .into_iter()
+            .map(Self::OfCommand)
+            .chain([Self::WholeTurns])
+    }
+
+    /// The name shown.
+    #[must_use]
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::OfCommand(preset) => preset.title(),
+            Self::WholeTurns => "Once around, twice back",
+        }
+    }
+
+    /// What to look for in it.
+    #[must_use]
+    pub fn says(self) -> &'static str {
+        match self {
+            Self::OfCommand(preset) => preset.says(),
+            Self::WholeTurns => {
+                "The angle about Y goes 0, 360, -360, -90: once around, twice back, three quarters on. The \
+                 curves do just that. Orientations know no whole turns: all other ways stand still twice \
+                 and then go a quarter turn, the other way."
+            }
+        }
+    }
+}
 
 /// The keys, and which two of them are looked at.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,7 +83,7 @@ pub struct Case {
     order: EulerOrder,
     keys_deg: Vec<[f64; 3]>,
     gap: usize,
-    preset: Option<Preset>,
+    preset: Option<LabPreset>,
 }
 
 impl Default for Case {
@@ -37,7 +95,18 @@ impl Default for Case {
 impl Case {
     /// The orientations of a preset, in the order of angles in which they are easiest to read.
     #[must_use]
-    pub fn of_preset(preset: Preset) -> Self {
+    pub fn of_preset(preset: impl Into<LabPreset>) -> Self {
+        let preset = match preset.into() {
+            LabPreset::OfCommand(preset) => preset,
+            LabPreset::WholeTurns => {
+                return Self {
+                    order: EulerOrder::YXZ,
+                    keys_deg: WHOLE_TURNS_DEG.to_vec(),
+                    gap: 0,
+                    preset: Some(LabPreset::WholeTurns),
+                };
+            }
+        };
         let order = preset.order();
         let mut previous = [0.0; 3];
         let keys_deg = preset
@@ -52,13 +121,13 @@ impl Case {
             order,
             keys_deg,
             gap: preset.gap(),
-            preset: Some(preset),
+            preset: Some(preset.into()),
         }
     }
 
     /// The preset that it is, until it is changed.
     #[must_use]
-    pub fn preset(&self) -> Option<Preset> {
+    pub fn preset(&self) -> Option<LabPreset> {
         self.preset
     }
 
@@ -115,7 +184,10 @@ impl Case {
     pub fn set_rotation(&mut self, key: usize, rotation: DQuat) {
         let before = self.keys_deg[key].map(f64::to_radians);
         let near = self.order.from_quat_near(rotation, before).angles_rad;
-        self.keys_deg[key] = near.map(|angle| within(rounded(angle.to_degrees())));
+        // A whole turn that was asked for stays asked for, as far as angles reach.
+        let near = near.map(|angle| rounded(angle.to_degrees()));
+        let reaches = near.iter().all(|angle| angle.abs() <= WIDEST_DEG);
+        self.keys_deg[key] = if reaches { near } else { near.map(within) };
         self.preset = None;
     }
 
@@ -236,8 +308,7 @@ fn rounded(angle_deg: f64) -> f64 {
 
 /// Two whole turns more or less are the same quaternion.
 fn within(angle_deg: f64) -> f64 {
-    let wide = 2.0 * WIDEST_DEG;
-    angle_deg - wide * (angle_deg / wide).round()
+    angle_deg - OF_QUATERNION_DEG * (angle_deg / OF_QUATERNION_DEG).round()
 }
 
 #[cfg(test)]

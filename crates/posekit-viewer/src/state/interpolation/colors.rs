@@ -4,6 +4,8 @@ use posekit::inbetween::{FillMethod, Method};
 use posekit_render::color::Color;
 use posekit_render::theme::CharacterColors;
 
+use super::kind::Kind;
+
 /// The colours of the six Euler orders, in the order of [`Method::ALL`].
 const EULER: [(&str, u32); 6] = [
     ("XYZ", 0xE0_7B_1F),
@@ -20,9 +22,19 @@ const OTHER: u32 = 0x80_88_94;
 /// The truth that filled-in motions are compared with.
 pub const TRUTH: u32 = 0xD8_D6_D0;
 
-/// A method's colour as `RRGGBB`.
+/// Curves of angles.
+const CURVES: u32 = 0xF2_5C_9A;
+
+/// A colour as `RRGGBB`.
 #[must_use]
-pub fn hex_of(method: Method) -> u32 {
+pub fn hex_of(kind: impl Into<Kind>) -> u32 {
+    match kind.into() {
+        Kind::Between(method) => hex_of_method(method),
+        Kind::Curves => CURVES,
+    }
+}
+
+fn hex_of_method(method: Method) -> u32 {
     match method {
         Method::Slerp => 0x25_6F_D8,
         Method::RawSlerp => 0x7F_B2_F2,
@@ -51,8 +63,8 @@ pub fn hex_of_fill(method: FillMethod) -> u32 {
 
 /// A colour for the scene.
 #[must_use]
-pub fn color_of(method: Method) -> Color {
-    Color::from_hex(hex_of(method))
+pub fn color_of(kind: impl Into<Kind>) -> Color {
+    Color::from_hex(hex_of(kind))
 }
 
 /// The colours of a figure, all near one.
@@ -73,10 +85,10 @@ mod tests {
 
     #[test]
     fn every_method_has_a_colour_of_its_own() {
-        let mut colors: Vec<u32> = Method::ALL.map(hex_of).to_vec();
+        let mut colors: Vec<u32> = Kind::all().map(hex_of).collect();
         colors.sort_unstable();
         colors.dedup();
-        assert_eq!(colors.len(), Method::ALL.len());
+        assert_eq!(colors.len(), Method::ALL.len() + 1);
         assert!(!colors.contains(&OTHER));
     }
 }

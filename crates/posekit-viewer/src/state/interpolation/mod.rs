@@ -8,6 +8,7 @@ pub mod body;
 pub mod case;
 pub mod clip;
 pub mod colors;
+pub mod kind;
 pub mod layout;
 pub mod playback;
 pub mod scene;
@@ -26,9 +27,12 @@ use crate::gizmo::{Drag, Gizmo, Handle, Placement, Snap, Tool, Viewport};
 use crate::state::camera::ViewCamera;
 use crate::state::display::Look;
 use crate::state::mode::{Space, TURN_STEP_DEG};
+use case::LabPreset;
+use kind::{LostTurn, lost_turn};
 
 pub use case::Case;
 pub use clip::ClipLab;
+pub use kind::Kind;
 pub use layout::Layout;
 pub use playback::Playback;
 pub use ways::{Now, Span, Way};
@@ -109,7 +113,7 @@ pub struct InterpolationLab {
     case: Case,
     undo: Vec<Case>,
     redo: Vec<Case>,
-    shown: BTreeSet<Method>,
+    shown: BTreeSet<Kind>,
     span: Span,
     picture: Picture,
     tip: Axis,
@@ -117,7 +121,7 @@ pub struct InterpolationLab {
     space: Space,
     snaps: bool,
     held: Option<Held>,
-    ways: BTreeMap<Method, Way>,
+    ways: BTreeMap<Kind, Way>,
     view_size: Vec2,
     version: u64,
     /// The lab's clock.
@@ -137,7 +141,7 @@ impl Default for InterpolationLab {
             case: Case::default(),
             undo: Vec::new(),
             redo: Vec::new(),
-            shown: FIRST_SHOWN.into_iter().collect(),
+            shown: FIRST_SHOWN.map(Kind::Between).into_iter().collect(),
             span: Span::default(),
             picture: Picture::default(),
             tip: Axis::Z,
@@ -182,7 +186,8 @@ impl InterpolationLab {
     }
 
     /// Puts the orientations of a preset in; all keys are looked at where there are many.
-    pub fn take_preset(&mut self, preset: Preset) {
+    pub fn take_preset(&mut self, preset: impl Into<LabPreset>) {
+        let preset = preset.into();
         self.cancel_drag();
         self.begin_step();
         self.case = Case::of_preset(preset);
@@ -191,8 +196,14 @@ impl InterpolationLab {
         } else {
             Span::Pair
         };
-        if preset == Preset::LongWay {
-            self.shown.insert(Method::RawSlerp);
+        match preset {
+            LabPreset::OfCommand(Preset::LongWay) => {
+                self.shown.insert(Method::RawSlerp.into());
+            }
+            LabPreset::WholeTurns => {
+                self.shown.insert(Kind::Curves);
+            }
+            LabPreset::OfCommand(_) => {}
         }
         self.changed();
     }
@@ -254,24 +265,23 @@ impl InterpolationLab {
         }
     }
 
-    /// The methods that are shown, in the order of [`Method::ALL`].
-    pub fn shown(&self) -> impl Iterator<Item = Method> + '_ {
-        Method::ALL
-            .into_iter()
-            .filter(|method| self.shown.contains(method))
+    /// What is shown, in the order of [`Kind::all`].
+    pub fn shown(&self) -> impl Iterator<Item = Kind> + '_ {
+        Kind::all().filter(|kind| self.shown.contains(kind))
     }
 
-    /// Whether a method is shown.
+    /// Whether a method, or curves, are shown.
     #[must_use]
-    pub fn is_shown(&self, method: Method) -> bool {
-        self.shown.contains(&method)
+    pub fn is_shown(&self, kind: impl Into<Kind>) -> bool {
+        self.shown.contains(&kind.into())
     }
 
-    /// Shows a method, or no longer.
-    pub fn set_shown(&mut self, method: Method, is_shown: bool) {
+    /// Shows a method, or curves, or no longer.
+    pub fn set_shown(&mut self, kind: impl Into<Kind>, is_shown: bool) {
+        let kind = kind.into();
         let has_changed = match is_shown {
-            true => self.shown.insert(method),
-            false => self.shown.remove(&method),
+            true => self.shown.insert(kind),
+            false => self.shown.remove(&kind),
         };
         self.version += u64::from(has_changed);
     }
@@ -358,29 +368,38 @@ impl InterpolationLab {
     /// Works out the ways of all methods that are not known yet: some milliseconds.
     pub fn measure(&mut self) {
         let (case, span) = (&self.case, self.span);
-        for method in Method::ALL {
+        for kind in Kind::all() {
             self.ways
-                .entry(method)
-                .or_insert_with(|| Way::new(method, case, span));
+                .entry(kind)
+                .or_insert_with(|| Way::new(kind, case, span));
         }
     }
 
     /// A method's way, once it was measured.
     #[must_use]
-    pub fn way(&self, method: Method) -> Option<&Way> {
-        self.ways.get(&method)
+    pub fn way(&self, kind: impl Into<Kind>) -> Option<&Way> {
+        self.ways.get(&kind.into())
     }
 
-    /// The ways of the shown methods, in the order of [`Method::ALL`].
+    /// The ways of what is shown, in the order of [`Kind::all`].
     pub fn ways(&self) -> impl Iterator<Item = &Way> + '_ {
-        self.shown().filter_map(|method| self.ways.get(&method))
+        self.shown().filter_map(|kind| self.ways.get(&kind))
     }
 
-    /// Where a method is now.
+    /// Where a method is now, or the curves.
     #[must_use]
-    pub fn now(&self, method: Method) -> Now {
-        let (gap, t) = self.span.place(&self.case, self.playback.share());
-        ways::now(method, &self.case.ends(gap), t)
+    pub fn now(&self, kind: impl Into<Kind>) -> Now {
+        let place = self.span.place(&self.case, self.playback.share());
+        ways::now(kind.into(), &self.case, place)
+    }
+
+    /// What was asked for in the keys that are looked at and no orientation can hold, gap by gap.
+    pub fn lost_turns(&self) -> impl Iterator<Item = LostTurn> + '_ {
+        let gaps = match self.span {
+            Span::Pair => self.case.gap()..self.case.gap() + 1,
+            Span::AllKeys => 0..self.case.gap_count(),
+        };
+        gaps.filter_map(|gap| lost_turn(&self.case, gap))
     }
 
     /// The keys whose bodies can be turned: the start and the end.
@@ -523,14 +542,14 @@ impl InterpolationLab {
     /// The command that shows the same.
     #[must_use]
     pub fn command(&self) -> String {
-        let methods: Vec<Method> = self.shown().collect();
+        let methods: Vec<Method> = self.shown().filter_map(Kind::method).collect();
         self.case.command(&methods, ways::STEPS)
     }
 
     /// The numbers of the shown methods between start and end, as `posekit slerp --csv` prints them.
     #[must_use]
     pub fn numbers(&self) -> String {
-        let methods: Vec<Method> = self.shown().collect();
+        let methods: Vec<Method> = self.shown().filter_map(Kind::method).collect();
         posekit_formats::ways::csv(&self.case.ends(self.case.gap()), &methods, ways::STEPS)
     }
 }

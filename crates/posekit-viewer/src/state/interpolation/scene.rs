@@ -211,14 +211,14 @@ impl Stage<'_> {
     }
 
     fn add_path(&mut self, way: &Way, tip: DVec3, middle: Vec3, radius: f32) {
-        let color = color_of(way.method);
+        let color = color_of(way.kind);
         let lifted = |tips: Vec<DVec3>, over: f32| -> Vec<Vec3> {
             tips.into_iter()
                 .map(|tip| middle + tip.as_vec3() * radius * over)
                 .collect()
         };
         self.line(&lifted(way.tips(tip), OVER), color, 3.0);
-        if !way.method.makes_rotations() {
+        if !way.kind.makes_rotations() {
             self.line(&lifted(way.raw_tips(tip), 1.0), color, 1.4);
         }
     }

@@ -1,10 +1,11 @@
 //! What the methods make of the keys: where they are at a share of the way, and their numbers over all of it.
 
 use glam::DVec3;
-use posekit::inbetween::{Between, Blend, Ends, Method, PathStep, path};
-use posekit::rotation::angle_between;
+use posekit::inbetween::{Between, Blend, Method, PathStep, path};
+use posekit::rotation::{angle_between, matrix_from_quat};
 
 use super::case::Case;
+use super::kind::{self, Kind, path_of_curves};
 
 /// Steps of the way between two keys: the numbers are those of `posekit slerp --steps 100`.
 pub const STEPS: usize = 100;
@@ -65,8 +66,8 @@ impl Span {
 /// Where a method is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Now {
-    /// The method.
-    pub method: Method,
+    /// What it is.
+    pub kind: Kind,
     /// What it makes there.
     pub blend: Blend,
     /// The (nearest) rotation.
@@ -75,14 +76,26 @@ pub struct Now {
     pub deviation_deg: f64,
 }
 
-/// Where a method is at a share of the way.
+/// Where something is at a share of a gap.
 #[must_use]
-pub fn now(method: Method, ends: &Ends, t: f64) -> Now {
+pub fn now(kind: Kind, case: &Case, (gap, t): (usize, f64)) -> Now {
+    let Kind::Between(method) = kind else {
+        let (rotation, deviation_deg) = kind::now(case, (gap, t));
+        return Now {
+            kind,
+            blend: Blend {
+                matrix: matrix_from_quat(rotation),
+            },
+            rotation,
+            deviation_deg,
+        };
+    };
+    let ends = &case.ends(gap);
     let way = Between::new(method, ends);
     let rotation = way.rotation_at(t);
     let slerp = Between::new(Method::Slerp, ends).rotation_at(t);
     Now {
-        method,
+        kind,
         blend: way.at(t),
         rotation,
         deviation_deg: angle_between(rotation, slerp).to_degrees(),
@@ -92,8 +105,8 @@ pub fn now(method: Method, ends: &Ends, t: f64) -> Now {
 /// A method's way, and its extremes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Way {
-    /// The method.
-    pub method: Method,
+    /// What it is.
+    pub kind: Kind,
     /// The steps; `t` counts ways from the first key looked at.
     pub steps: Vec<PathStep>,
     /// The farthest from slerp, degrees.
@@ -109,9 +122,10 @@ pub struct Way {
 }
 
 impl Way {
-    /// The way of a method.
+    /// The way of a method, or of curves.
     #[must_use]
-    pub fn new(method: Method, case: &Case, span: Span) -> Self {
+    pub fn new(kind: impl Into<Kind>, case: &Case, span: Span) -> Self {
+        let kind = kind.into();
         let gaps = span.gaps(case);
         let count = if gaps.len() == 1 {
             STEPS
@@ -123,19 +137,21 @@ impl Way {
             .flat_map(|(passed, gap)| {
                 #[expect(clippy::cast_precision_loss, reason = "a small number")]
                 let before = passed as f64;
-                path(method, &case.ends(gap), count)
-                    .into_iter()
-                    .map(move |step| PathStep {
-                        t: before + step.t,
-                        ..step
-                    })
+                let steps = match kind {
+                    Kind::Between(method) => path(method, &case.ends(gap), count),
+                    Kind::Curves => path_of_curves(case, gap, count),
+                };
+                steps.into_iter().map(move |step| PathStep {
+                    t: before + step.t,
+                    ..step
+                })
             })
             .collect();
         let most = |value: fn(&PathStep) -> f64| steps.iter().map(value).fold(0.0, f64::max);
         let least =
             |value: fn(&PathStep) -> f64| steps.iter().map(value).fold(f64::INFINITY, f64::min);
         Self {
-            method,
+            kind,
             most_deviation_deg: most(|step| step.deviation_deg),
             most_speed_deg: most(|step| step.speed_deg),
             least_speed_deg: least(|step| step.speed_deg),
@@ -191,7 +207,8 @@ mod tests {
     fn presets_show_what_they_say() {
         let way = |preset, word: &str, span| {
             let case = Case::of_preset(preset);
-            Way::new(word.parse().expect("a method"), &case, span)
+            let method: Method = word.parse().expect("a method");
+            Way::new(method, &case, span)
         };
         let zxy = way(Preset::Zxy, "euler:ZXY", Span::Pair);
         let slerp = way(Preset::Zxy, "slerp", Span::Pair);

@@ -132,15 +132,13 @@ impl Session {
         let same_joints = old.skeleton().joint_count() == motion.skeleton().joint_count();
         let mut clip = Clip::clone(old);
         clip.source = Source::Scene(path);
-        clip.set_motion(motion);
+        clip.set_motion(motion, |joint| authored.order_of(joint));
         self.authoring.open.insert(id, authored);
         self.clips[index].clip = Arc::new(clip);
         self.clips[index].scaled = None;
         self.remake_actor(index);
         if self.active == Some(id) {
-            let motion = Arc::clone(&self.clips[index].clip.motion);
-            self.transport
-                .reload(motion.frame_count(), motion.frame_time_secs());
+            self.reload_time_line();
             if !same_joints {
                 self.selection.clear();
             }
@@ -176,7 +174,8 @@ impl Session {
         let before = &self.clips[index].clip.motion;
         let same_time = before.frame_count() == motion.frame_count()
             && (before.frame_time_secs() - motion.frame_time_secs()).abs() < f64::EPSILON;
-        Arc::make_mut(&mut self.clips[index].clip).set_motion(Arc::clone(&motion));
+        Arc::make_mut(&mut self.clips[index].clip)
+            .set_motion(Arc::clone(&motion), |joint| authored.order_of(joint));
         self.clips[index].scaled = None;
         self.clips[index].actor = self.clips[index].actor.with_motion(Arc::clone(&motion));
         self.editing.changed.insert(id);
@@ -195,8 +194,7 @@ impl Session {
         }
         if self.active == Some(id) {
             let time = self.transport.time_secs() + moved_secs;
-            self.transport
-                .reload(motion.frame_count(), motion.frame_time_secs());
+            self.reload_time_line();
             self.transport.set_time_secs(time);
         }
         self.set_stage();

@@ -11,14 +11,24 @@ use glam::{Quat, Vec3};
 use posekit::pose::{GlobalPose, LocalPose};
 use posekit::skeleton::JointId;
 
+use super::hand::Hand;
 use super::{ClipId, Handles, Session};
 use crate::gizmo::{Drag, Gizmo, Handle, Placement, Snap, Tool, Viewport};
 use crate::state::animate::Authored;
-use crate::state::clip::Clip;
+use crate::state::clip::{Clip, nearest_index};
 use crate::state::display::PoseShown;
 use crate::state::edit::{ClipEdits, Spread, freedom, reachable};
 use crate::state::ik::Goals;
 use crate::state::mode::{Mode, Space, TURN_STEP_DEG, ToolSettings, move_step};
+
+/// A clip of so many frames is a recording, where it has no keys.
+const CAPTURED_FRAMES: usize = 60;
+
+/// Over how long, on both sides, an edit of a recording fades until something else is chosen.
+const CAPTURED_FALLOFF_SECS: f64 = 0.3;
+
+/// And over no more frames than these.
+const LONGEST_FALLOFF: usize = 240;
 
 /// What undo or redo has changed, for people.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -34,6 +44,8 @@ pub(super) struct Editing {
     tools: ToolSettings,
     edits: BTreeMap<ClipId, ClipEdits>,
     held: Option<Held>,
+    /// What follows the pointer without a button.
+    pub(super) hand: Hand,
     /// The pose that the figure is held in while a handle is dragged.
     pub(super) live: Option<Arc<LocalPose>>,
     /// Clips whose motion has changed since that was asked for.
@@ -103,6 +115,33 @@ impl Session {
         edits.is_some_and(ClipEdits::has_changed_motion)
     }
 
+    /// Whether the active clip is a recording: many frames, none of them a key.
+    #[must_use]
+    pub fn is_captured(&self) -> bool {
+        let frames = self.active_clip().map_or(0, |clip| clip.frame_count());
+        self.authored().is_none() && frames >= CAPTURED_FRAMES
+    }
+
+    /// How the edit, or the next one, reaches the frames around it.
+    #[must_use]
+    pub fn spread(&self) -> Spread {
+        let edits = self.edits().map(ClipEdits::spread);
+        edits.unwrap_or_else(|| self.first_spread())
+    }
+
+    /// How edits reach the frames around until something else is chosen: in a recording they fade, since a
+    /// frame that is changed alone jumps.
+    fn first_spread(&self) -> Spread {
+        let Some(clip) = self.active_clip().filter(|_| self.is_captured()) else {
+            return Spread::default();
+        };
+        let frames = CAPTURED_FALLOFF_SECS / clip.motion.frame_time_secs();
+        Spread {
+            falloff_frames: nearest_index(frames, LONGEST_FALLOFF).max(2),
+            ..Spread::default()
+        }
+    }
+
     /// The clips whose motion has changed since this was asked last.
     pub fn take_changed(&mut self) -> Vec<ClipId> {
         std::mem::take(&mut self.editing.changed)
@@ -168,7 +207,9 @@ impl Session {
     ) -> Option<T> {
         let id = self.active?;
         let index = self.index_of(id)?;
-        let edits = self.editing.edits.entry(id).or_default();
+        let spread = self.first_spread();
+        let edits = self.editing.edits.entry(id);
+        let edits = edits.or_insert_with(|| ClipEdits::with_spread(spread));
         let motion_before = Arc::clone(&self.clips[index].clip.motion);
         let done = edit(edits, Arc::make_mut(&mut self.clips[index].clip));
         let open = &mut self.clips[index];
@@ -192,7 +233,7 @@ impl Session {
             self.put_authored_pose(name, pose, None);
             return;
         }
-        let frame = self.transport.frame();
+        let frame = self.clip_frame();
         self.edit_clip(|edits, clip| {
             let goals = edits.state().goals.clone();
             edits.set_pose(clip, name, frame, pose, goals);
@@ -206,7 +247,7 @@ impl Session {
             return;
         }
         let frame = goals.target.map(|target| target.frame);
-        let frame = frame.unwrap_or_else(|| self.transport.frame());
+        let frame = frame.unwrap_or_else(|| self.clip_frame());
         self.edit_clip(|edits, clip| edits.set_pose(clip, name, frame, pose, goals));
     }
 
@@ -259,7 +300,7 @@ impl Session {
     /// What was changed is to be seen.
     fn go_to_edited(&mut self, frame: Option<usize>) {
         if let Some(frame) = frame
-            && frame != self.transport.frame()
+            && frame != self.clip_frame()
         {
             self.transport.pause();
             self.transport.go_to_frame(frame);
@@ -292,10 +333,14 @@ impl Session {
     /// A new gesture on the active clip's edits.
     pub fn new_gesture(&mut self) -> Option<crate::state::edit::Gesture> {
         let id = self.active?;
-        Some(self.editing.edits.entry(id).or_default().gesture())
+        let spread = self.first_spread();
+        let edits = self.editing.edits.entry(id);
+        let edits = edits.or_insert_with(|| ClipEdits::with_spread(spread));
+        Some(edits.gesture())
     }
 
     pub(super) fn forget_edits(&mut self, id: ClipId) {
+        self.forget_ranges(id);
         self.editing.edits.remove(&id);
         if self.active == Some(id) {
             self.stop_editing();
@@ -463,6 +508,7 @@ impl Session {
 
     /// Lets the handle go: what it did becomes a step.
     pub fn drop_handle(&mut self) {
+        self.empty_hand();
         if self.drop_thing() {
             return;
         }
@@ -492,6 +538,7 @@ impl Session {
 
     /// Lets the handle go without effect. True when one was held.
     pub fn cancel_drag(&mut self) -> bool {
+        self.empty_hand();
         if self.cancel_thing() {
             return true;
         }

@@ -3,15 +3,15 @@
 use std::sync::Arc;
 
 use glam::Quat;
-use posekit::ik::{IkProblem, IkWorkspace, solve};
+use posekit::ik::{IkProblem, IkWorkspace, JointLimits, solve};
 use posekit::pose::{GlobalPose, LocalPose};
 use posekit::skeleton::JointId;
 
-use super::{Handles, Session};
+use super::{ClipId, Handles, Session};
 use crate::gizmo::{Gizmo, Placement, Tool};
 use crate::state::ik::{
-    Goals, IkSettings, Pin, ProblemParts, Solved, Stepper, Target, chain_joints, feet_and_hands,
-    problem, solver_name,
+    Goals, IkSettings, Pin, ProblemParts, Solved, Stepper, Target, chain_joints, channel_limits,
+    feet_and_hands, problem, ranges_within, solver_name,
 };
 use crate::state::mode::Space;
 
@@ -22,6 +22,8 @@ pub(super) struct Limbs {
     workspace: IkWorkspace,
     solved: Option<Solved>,
     stepping: Option<Stepping>,
+    /// What joints can do within the motion of a clip, as it was when that was asked for first.
+    ranges: Option<(ClipId, Arc<JointLimits>)>,
     /// Where the target is dragged at the moment.
     pub(super) dragged: Option<Target>,
 }
@@ -55,6 +57,9 @@ impl Session {
     /// Changes how problems are solved.
     pub fn set_ik(&mut self, settings: IkSettings) {
         if settings != self.limbs.settings {
+            if settings.within_motion != self.limbs.settings.within_motion {
+                self.limbs.ranges = None;
+            }
             self.limbs.settings = settings;
             self.stop_stepping();
         }
@@ -109,7 +114,7 @@ impl Session {
             return Some(dragged);
         }
         let joint = self.effector()?;
-        let frame = self.transport.frame();
+        let frame = self.clip_frame();
         let asked = self.goals().target;
         asked
             .filter(|target| target.joint == joint && target.frame == frame)
@@ -133,9 +138,7 @@ impl Session {
             return Vec::new();
         }
         let pose = self.shown_global_pose();
-        pose.map_or_else(Vec::new, |pose| {
-            goals.pins_at(self.transport.frame(), &pose)
-        })
+        pose.map_or_else(Vec::new, |pose| goals.pins_at(self.clip_frame(), &pose))
     }
 
     /// The gizmo at the target.
@@ -170,7 +173,39 @@ impl Session {
         self.solve_for(pose, &target)
     }
 
-    fn problem_of(&self, target: &Target) -> Option<(IkProblem, f32)> {
+    /// Whether joints keep within what they do in the motion: as was chosen, else for captured clips.
+    #[must_use]
+    pub fn keeps_within_motion(&self) -> bool {
+        let chosen = self.limbs.settings.within_motion;
+        chosen.unwrap_or_else(|| self.is_captured())
+    }
+
+    /// What joints can do: what their channels can say and, where it is asked for, what they do.
+    fn limits(&mut self) -> Option<Arc<JointLimits>> {
+        let (id, clip) = (self.active?, self.active_clip()?);
+        if !self.keeps_within_motion() {
+            return Some(Arc::new(channel_limits(&clip.document)));
+        }
+        if let Some((of, ranges)) = &self.limbs.ranges
+            && *of == id
+        {
+            return Some(Arc::clone(ranges));
+        }
+        let given = channel_limits(&clip.document);
+        let ranges = Arc::new(ranges_within(&clip.motion, &clip.global, &given));
+        self.limbs.ranges = Some((id, Arc::clone(&ranges)));
+        Some(ranges)
+    }
+
+    /// What a clip's joints do is to be looked at anew.
+    pub(super) fn forget_ranges(&mut self, id: ClipId) {
+        if self.limbs.ranges.as_ref().is_some_and(|(of, _)| *of == id) {
+            self.limbs.ranges = None;
+        }
+    }
+
+    fn problem_of(&mut self, target: &Target) -> Option<(IkProblem, f32)> {
+        let limits = self.limits()?;
         let clip = self.active_clip()?;
         let goals = self.goals();
         let pins = if goals.pins.is_empty() {
@@ -187,6 +222,7 @@ impl Session {
             is_oriented: self.is_oriented(),
             pins: &pins,
             settings: &self.limbs.settings,
+            limits: &limits,
         }))
     }
 
@@ -287,7 +323,7 @@ impl Session {
         let all_held = joints.iter().all(|&joint| goals.is_pinned(joint));
         goals.pins.retain(|pin| !joints.contains(&pin.joint));
         if !all_held {
-            let frame = self.transport.frame();
+            let frame = self.clip_frame();
             goals.pins.extend(joints.iter().map(|&joint| Pin {
                 joint,
                 frame,
@@ -336,7 +372,7 @@ impl Session {
         let Some(target) = self.target() else {
             return;
         };
-        let frame = self.transport.frame();
+        let frame = self.clip_frame();
         let draft = self.edits().and_then(|edits| edits.draft());
         let draft = draft.filter(|draft| draft.frame == frame && self.limbs.settings.is_live);
         let start = match draft {
@@ -395,7 +431,7 @@ impl Session {
     pub fn follow_changes(&mut self) {
         self.follow_time();
         self.follow_key_ghosts();
-        let (frame, joint) = (self.transport.frame(), self.effector());
+        let (frame, joint) = (self.clip_frame(), self.effector());
         let fits = |way: &Stepping| way.frame == frame && Some(way.joint) == joint;
         if self.limbs.stepping.as_ref().is_some_and(|way| !fits(way)) {
             self.stop_stepping();

@@ -3,6 +3,7 @@
 
 mod authoring;
 mod editing;
+mod hand;
 mod limbs;
 mod posing;
 mod selection;
@@ -20,7 +21,7 @@ use posekit_render::scene::Scene;
 use posekit_render::stage::{Actor, Stage, StageOptions};
 
 use crate::state::camera::ViewCamera;
-use crate::state::clip::{Clip, Reading, index_to_f64};
+use crate::state::clip::{Clip, Reading, index_to_f64, nearest_index};
 use crate::state::display::{Display, Look, PoseShown};
 use crate::state::transport::Transport;
 
@@ -28,6 +29,7 @@ use authoring::Authoring;
 pub use authoring::{AnimateSettings, Handles, KeyWhat};
 pub use editing::Changed;
 use editing::Editing;
+pub use hand::Act;
 pub use limbs::Hold;
 use limbs::Limbs;
 use staging::actor_of;
@@ -36,6 +38,9 @@ pub use things::{KeyState, NewThing};
 
 /// A joint that is taken into the picture alone shows this much of the figure around it.
 const JOINT_FRAME_STATURES: f32 = 0.25;
+
+/// No time line is longer: a clip whose rate is wrong by far stands beside one that is right.
+const MOST_FRAMES: usize = 10_000_000;
 
 /// An open clip of a session: it stays the same however the list changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -50,7 +55,8 @@ pub struct OpenClip {
     pub clip: Arc<Clip>,
     /// Whether its figure is on the stage.
     pub shown: bool,
-    /// Its place in the order of character colours.
+    /// Its place in the order of character colours, which is its place on the stage. What is not shown
+    /// keeps the one it had.
     pub color: usize,
     actor: Actor,
     /// The same figure in another clip's unit of length, and the factor.
@@ -152,7 +158,7 @@ impl Session {
     fn insert(&mut self, clip: Clip) -> ClipId {
         let id = ClipId(self.next_id);
         self.next_id += 1;
-        let color = self.free_color();
+        let color = 0;
         let clip = Arc::new(clip);
         let actor = actor_of(&clip, &self.display, color);
         self.clips.push(OpenClip {
@@ -166,11 +172,15 @@ impl Session {
         id
     }
 
-    /// The first colour that no open clip has.
-    fn free_color(&self) -> usize {
-        (0..)
-            .find(|color| self.clips.iter().all(|open| open.color != *color))
-            .unwrap_or(0)
+    /// Moves a clip in the list, and on the stage, to before another.
+    pub fn move_before(&mut self, id: ClipId, other: ClipId) {
+        let (Some(from), Some(_)) = (self.index_of(id), self.index_of(other)) else {
+            return;
+        };
+        let open = self.clips.remove(from);
+        let to = self.index_of(other).unwrap_or(self.clips.len());
+        self.clips.insert(to, open);
+        self.set_stage();
     }
 
     /// Puts a newer version of a clip in its place; time, selection and camera stay.
@@ -187,8 +197,7 @@ impl Session {
         self.clips[index].scaled = None;
         self.clips[index].clip = Arc::clone(&clip);
         if self.active == Some(id) {
-            self.transport
-                .reload(clip.frame_count(), clip.motion.frame_time_secs());
+            self.reload_time_line();
             if !same_joints {
                 self.selection.clear();
             }
@@ -279,7 +288,6 @@ impl Session {
         let Some(clip) = self.active_clip() else {
             return;
         };
-        let (frame_count, frame_time) = (clip.frame_count(), clip.motion.frame_time_secs());
         // The same joints stay selected in a clip of the same skeleton.
         let same = before.is_some_and(|before| before.parents() == clip.skeleton().parents());
         if !same {
@@ -287,10 +295,43 @@ impl Session {
         }
         self.forget_things();
         let was_playing = self.transport.is_playing();
+        let (frame_count, frame_time) = self.time_line();
         self.transport.load(frame_count, frame_time);
         if was_playing {
             self.transport.play();
         }
+    }
+
+    /// How many frames there are, and the seconds of one: those of the active clip, and as many more as it
+    /// takes for the longest clip on the stage to come to its end.
+    fn time_line(&self) -> (usize, f64) {
+        let Some(active) = self.active_clip() else {
+            return (0, 0.0);
+        };
+        let frame_secs = active.motion.frame_time_secs();
+        let own = active.frame_count();
+        if own == 0 || frame_secs <= 0.0 {
+            return (own, frame_secs);
+        }
+        let durations = self.shown().map(|open| open.clip.motion.duration_secs());
+        let longest = durations.fold(0.0, f64::max);
+        // Rates that are rounded in their files do not make a frame of their own.
+        let frames = (longest / frame_secs - 0.01).ceil().max(0.0);
+        let last = nearest_index(frames, MOST_FRAMES).max(own - 1);
+        (last + 1, frame_secs)
+    }
+
+    /// The time line follows a change of the clips on the stage; time and range stay where they can.
+    fn reload_time_line(&mut self) {
+        let (frame_count, frame_secs) = self.time_line();
+        self.transport.reload(frame_count, frame_secs);
+    }
+
+    /// The frame of the active clip that is shown: its last, where others go on.
+    #[must_use]
+    pub fn clip_frame(&self) -> usize {
+        let frames = self.active_clip().map_or(0, |clip| clip.frame_count());
+        self.transport.frame().min(frames.saturating_sub(1))
     }
 
     /// Puts a clip on the stage beside the active one, or takes it off. The active one stays.

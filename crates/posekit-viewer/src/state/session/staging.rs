@@ -26,7 +26,11 @@ const OTHER_UNIT: f32 = 4.0;
 
 impl Session {
     pub(super) fn set_stage(&mut self) {
+        if self.time_line().0 != self.transport.frame_count() {
+            self.reload_time_line();
+        }
         let time = self.transport.time_secs();
+        self.set_colors();
         self.set_scales();
         let actors: Vec<Actor> = self.shown().map(|open| open.on_stage().clone()).collect();
         self.stage = Stage::new(actors, self.stage_options());
@@ -51,16 +55,58 @@ impl Session {
         Stage::new(at_rest.collect(), options)
     }
 
+    /// The figures on the stage take the colours in the order in which they stand there, as those of
+    /// `posekit render` do: one that is alone has the first.
+    fn set_colors(&mut self) {
+        let shown = self.clips.iter_mut().filter(|open| open.shown);
+        for (color, open) in shown.enumerate() {
+            if open.color != color {
+                open.color = color;
+                let colors = CharacterColors::of(color);
+                open.actor.set_colors(colors);
+                if let Some((_, actor)) = &mut open.scaled {
+                    actor.set_colors(colors);
+                }
+            }
+        }
+    }
+
     /// The stage of the active clip's scene as a file of it is drawn: the figure alone, its body fitted to
-    /// the motion as it is now, nothing held or marked.
+    /// the motion as it is now, in the style and the theme of the view, nothing held or marked.
     #[must_use]
     pub fn shot_stage(&self) -> Stage {
         let open = self.clips.iter().find(|open| Some(open.id) == self.active);
-        let actor = open.map(|open| actor_of(&open.clip, &self.display, open.color));
-        let mut stage = Stage::new(actor.into_iter().collect(), self.stage_options());
+        let actor = open.map(|open| actor_of(&open.clip, &self.display, 0));
+        let of_view = self.stage_options();
+        let options = StageOptions {
+            style: of_view.style,
+            theme: of_view.theme,
+            ..StageOptions::default()
+        };
+        let mut stage = Stage::new(actor.into_iter().collect(), options);
         if let Some(authored) = self.authored() {
             stage.set_surroundings(surroundings(authored.scene()));
         }
+        stage
+    }
+
+    /// The stage as it is seen, for a film of it: bodies are fitted to the motions as they are now, and
+    /// nothing is held in a pose or a place that is not in the motion.
+    #[must_use]
+    pub fn film_stage(&self) -> Stage {
+        let mut stage = match self.pose_shown {
+            PoseShown::Rest => self.stage.clone(),
+            PoseShown::Motion => {
+                let style = self.display.style.to_render();
+                let actors = self.shown().map(|open| {
+                    let motion = Arc::clone(open.on_stage().motion());
+                    Actor::new(motion, style, CharacterColors::of(open.color))
+                });
+                Stage::new(actors.collect(), self.stage_options())
+            }
+        };
+        let of_scene = self.authored().map(|it| surroundings(it.scene()));
+        stage.set_surroundings(of_scene.unwrap_or_default());
         stage
     }
 

@@ -63,18 +63,23 @@ pub fn add(scene: &mut Scene, kind: Kind) -> Owner {
             Owner::Camera(scene.cameras.len() - 1)
         }
         Kind::Light { position, strength } => {
-            let name = free_name("light", scene.lights.iter().map(|it| it.name.as_str()));
             let shine = KeyedLight {
                 position: Property::Fixed(position),
                 strength: Property::Fixed(strength),
                 ..KeyedLight::default()
             };
-            scene.lights.push(Light { name, shine });
-            Owner::Light(scene.lights.len() - 1)
+            add_light(scene, "light", shine)
         }
         Kind::Box { at, side } => add_prop(scene, "box", at, side),
         Kind::Sphere { at, side } => add_prop(scene, "sphere", at, side),
     }
+}
+
+/// Adds a light of a name, or of one like it that none has yet.
+pub fn add_light(scene: &mut Scene, name: &str, shine: KeyedLight) -> Owner {
+    let name = free_name(name, scene.lights.iter().map(|it| it.name.as_str()));
+    scene.lights.push(Light { name, shine });
+    Owner::Light(scene.lights.len() - 1)
 }
 
 fn add_prop(scene: &mut Scene, shape: &str, at: DVec3, side: f64) -> Owner {
@@ -109,7 +114,11 @@ pub fn remove(scene: &mut Scene, owner: Owner) {
     match owner {
         Owner::Joint(_) => {}
         Owner::Camera(index) => drop(scene.cameras.remove(index)),
-        Owner::Light(index) => drop(scene.lights.remove(index)),
+        Owner::Light(index) => {
+            drop(scene.lights.remove(index));
+            // Nothing is seen in a room without any light.
+            scene.studio_light |= scene.lights.is_empty();
+        }
         Owner::Prop(index) => drop(scene.props.remove(index)),
     }
 }

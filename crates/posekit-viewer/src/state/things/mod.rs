@@ -10,7 +10,7 @@ use posekit_render::stage::{Prop, PropShape, Surroundings};
 
 use super::animate::{Lane, LaneValue, Owner};
 
-pub use edit::{Kind, add, keyed, remove, rename, set_fixed, unkeyed};
+pub use edit::{Kind, add, add_light, keyed, remove, rename, set_fixed, unkeyed};
 pub use place::{Symbol, camera_corners, symbols};
 
 /// A point of a thing that can be taken with the pointer.
@@ -84,6 +84,7 @@ pub fn surroundings(scene: &Scene) -> Surroundings {
         Prop::new(&shape, prop.transform.clone())
     };
     Surroundings {
+        studio_light: scene.studio_light,
         lights: scene.lights.iter().map(|it| it.shine.clone()).collect(),
         props: scene.props.iter().map(prop).collect(),
         start_secs: scene.range_secs[0],

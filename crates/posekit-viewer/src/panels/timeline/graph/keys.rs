@@ -84,11 +84,11 @@ pub(super) fn run(
         KeysCommand::Move => panel.graph.take_dots(session),
         KeysCommand::Scale => panel.graph.take_to_scale(session),
         KeysCommand::ViewAll => {
-            panel.view_all(time, &plane.axis);
+            panel.view_all(time, &plane.axis, session.scene_secs());
             false
         }
         KeysCommand::ViewSelected => {
-            panel.view_selected(time, &plane.axis);
+            panel.view_selected(time, &plane.axis, session.scene_secs());
             false
         }
         KeysCommand::SelectAll => {

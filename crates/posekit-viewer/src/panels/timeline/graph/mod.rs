@@ -142,27 +142,25 @@ impl GraphPanel {
         self.values = Some(ValueView::of(extent));
     }
 
+    /// Takes the range, the playhead and all keys into view.
+    fn view_all(&mut self, time: &mut TimeView, axis: &Axis, playhead_secs: f64) {
+        let dots: BTreeSet<DotId> = self.graph.dots().collect();
+        let extent = self.graph.extent(dots.iter().copied());
+        time.fit_all(extent.map(|[times, _]| times), playhead_secs, axis);
+        if extent.is_some() {
+            self.fit_values(dots.into_iter().collect());
+        }
+    }
+
     /// Takes what is selected into view, or everything where nothing is.
-    fn view(&mut self, dots: BTreeSet<DotId>, time: &mut TimeView, axis: &Axis) {
-        let Some([times, _]) = self.graph.extent(dots.iter().copied()) else {
+    fn view_selected(&mut self, time: &mut TimeView, axis: &Axis, playhead_secs: f64) {
+        let selected = self.graph.selected();
+        let Some([times, _]) = self.graph.extent(selected.iter().copied()) else {
+            self.view_all(time, axis, playhead_secs);
             return;
         };
         time.fit(times, axis);
-        self.fit_values(dots.into_iter().collect());
-    }
-
-    fn view_all(&mut self, time: &mut TimeView, axis: &Axis) {
-        let dots: BTreeSet<DotId> = self.graph.dots().collect();
-        self.view(dots, time, axis);
-    }
-
-    fn view_selected(&mut self, time: &mut TimeView, axis: &Axis) {
-        let selected = self.graph.selected();
-        if selected.is_empty() {
-            self.view_all(time, axis);
-        } else {
-            self.view(selected, time, axis);
-        }
+        self.fit_values(selected.into_iter().collect());
     }
 }
 
@@ -220,6 +218,7 @@ fn show_plot(
     let Some(plane) = plane_now(session, panel, time) else {
         return;
     };
+    time.follow_playhead(&plane.axis, session);
     axis::ruler(ui, time, &plane.axis, ruler, session);
     let response = ui.interact(rect, ui.scope_id().with("graph"), Sense::click_and_drag());
     response.widget_info(|| {

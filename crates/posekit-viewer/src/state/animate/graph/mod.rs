@@ -12,7 +12,6 @@ use std::sync::Arc;
 
 use posekit::keyframe::edit::SAME_TIME_SECS;
 use posekit::rotation::EulerOrder;
-use posekit_formats::scene::JointValues;
 
 use super::channel::{self, Channels, Dot, Edited, Side, insert_on_curve};
 use super::edit::mode::LOST_TURN;
@@ -121,23 +120,13 @@ impl Graph {
         lanes.chain(of_picked.into_iter().flatten()).collect()
     }
 
-    /// The order in which a lane's angles are shown: the chosen one, or that of the scene's file.
+    /// The order in which a lane's angles are shown: the chosen one, or that of the scene or the file.
     fn order_of(&self, authored: &Authored, lane: Lane) -> EulerOrder {
-        let in_file = || {
-            let Lane::Rotation(joint) = lane else {
-                return None;
-            };
-            let name = authored.skeleton().unique_name(joint);
-            let tracks = authored.scene().tracks.iter();
-            tracks
-                .filter(|track| track.joint == name)
-                .find_map(|track| match &track.values {
-                    JointValues::Rotation { euler, .. } => euler.as_ref().map(|euler| euler.order),
-                    JointValues::EulerRotation(track) => Some(track.order()),
-                    JointValues::Translation(_) => None,
-                })
+        let own = match lane {
+            Lane::Rotation(joint) => authored.order_of(joint),
+            _ => EulerOrder::ZXY,
         };
-        self.order.or_else(in_file).unwrap_or(EulerOrder::ZXY)
+        self.order.unwrap_or(own)
     }
 
     /// Dots are of selected keys; of a key that was selected elsewhere all channels that are seen are.

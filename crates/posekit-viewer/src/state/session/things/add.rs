@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use glam::{DVec3, Vec3};
+use posekit::keyframe::{KeyedLight, Property};
 use posekit_render::camera::Projection;
 use posekit_render::stage::LIGHT_FULL_AT;
 
@@ -16,6 +17,41 @@ const PROP_SIDE: f32 = 0.3;
 
 /// Where in the view a new light is, in thousandths from the left and from the top.
 const LIGHT_IN_VIEW: (f32, f32) = (250.0, 220.0);
+
+/// A light of the three that portraits are lit with, seen from what is lit.
+struct PointOfThree {
+    name: &'static str,
+    /// About the vertical from the viewer, to the viewer's right.
+    yaw_deg: f32,
+    pitch_deg: f32,
+    color: DVec3,
+    strength: f64,
+}
+
+/// Strengths are shares of the key light's: the fill about a third, the rim nearly as bright.
+const THREE_POINTS: [PointOfThree; 3] = [
+    PointOfThree {
+        name: "key light",
+        yaw_deg: -45.0,
+        pitch_deg: 40.0,
+        color: DVec3::new(1.0, 0.93, 0.82),
+        strength: 0.9,
+    },
+    PointOfThree {
+        name: "fill light",
+        yaw_deg: 50.0,
+        pitch_deg: 15.0,
+        color: DVec3::new(0.82, 0.9, 1.0),
+        strength: 0.3,
+    },
+    PointOfThree {
+        name: "rim light",
+        yaw_deg: 155.0,
+        pitch_deg: 45.0,
+        color: DVec3::ONE,
+        strength: 0.8,
+    },
+];
 
 /// What can be added.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,6 +98,60 @@ impl Session {
         if let Some(owner) = added.flatten() {
             self.pick(Some(Picked::body(owner)));
         }
+    }
+
+    /// Adds three lights around what the view looks at, as portraits are lit, in place of the studio light:
+    /// a key light from the viewer's left and above, a fill light from the right, a rim light from behind.
+    pub fn add_three_point_lights(&mut self) {
+        self.transport.pause();
+        let view = self.view_camera();
+        let away = view.eye - view.target;
+        let yaw = libm::atan2f(away.x, away.z);
+        let stature = self.stage.stature();
+        let added = self.author(|authored| {
+            let mut key = None;
+            let _ = authored.edit_scene("Add three lights", None, |scene| {
+                scene.studio_light = false;
+                for light in &THREE_POINTS {
+                    let (sin, cos) = libm::sincosf(yaw + light.yaw_deg.to_radians());
+                    let (up, level) = libm::sincosf(light.pitch_deg.to_radians());
+                    let way = Vec3::new(sin * level, up, cos * level);
+                    let position = round(view.target + way * (LIGHT_FULL_AT * stature), stature);
+                    let shine = KeyedLight {
+                        position: Property::Fixed(position),
+                        color: Property::Fixed(light.color),
+                        strength: Property::Fixed(light.strength),
+                    };
+                    let owner = things::add_light(scene, light.name, shine);
+                    key.get_or_insert(owner);
+                }
+            });
+            key
+        });
+        if let Some(key) = added.flatten() {
+            self.pick(Some(Picked::body(key)));
+        }
+    }
+
+    /// Whether the scene's pictures have their own light beside its lights; `None` without a scene.
+    #[must_use]
+    pub fn studio_light(&self) -> Option<bool> {
+        Some(self.authored()?.scene().studio_light)
+    }
+
+    /// Switches the studio light.
+    pub fn set_studio_light(&mut self, on: bool) {
+        if self.studio_light() == Some(on) {
+            return;
+        }
+        let name = if on {
+            "Switch the studio light on"
+        } else {
+            "Switch the studio light off"
+        };
+        self.author(|authored| {
+            let _ = authored.edit_scene(name, None, |scene| scene.studio_light = on);
+        });
     }
 
     fn new_thing(&self, what: NewThing) -> Kind {

@@ -65,21 +65,22 @@ impl Session {
             _ => None,
         };
         let index = picked.or(self.looks_through()).unwrap_or(0);
+        let view = self.view_camera();
+        let values = [
+            (Lane::CameraPosition(index), view.eye),
+            (Lane::CameraTarget(index), view.target),
+        ]
+        .map(|(lane, at)| (lane, LaneValue::Vector(tidy(at))));
+        self.transport.pause();
         if count == 0 {
             self.add_thing(NewThing::Camera);
-        } else {
-            let view = self.view_camera();
-            let values = [
-                (Lane::CameraPosition(index), view.eye),
-                (Lane::CameraTarget(index), view.target),
-            ]
-            .map(|(lane, at)| (lane, LaneValue::Vector(tidy(at))));
-            if self.animate().auto_key {
-                // Where it stands and what it looks at belong together, changed or not.
-                self.put_keys("Camera to view", &values, None);
-            } else {
-                self.set_values("Camera to view", &values, None);
-            }
+        }
+        if self.animate().auto_key {
+            // A view that is taken is a key, changed or not: without one at the first, the next would
+            // hold for all of the shot.
+            self.put_keys("Camera to view", &values, None);
+        } else if count > 0 {
+            self.set_values("Camera to view", &values, None);
         }
         self.things.looks_through = Some(index);
     }
