@@ -2,7 +2,7 @@
 
 use std::io;
 
-use posekit::motion::Motion;
+use posekit::motion::{FrameTime, Motion};
 use posekit::rotation::EulerOrder;
 use posekit_formats::arrays::MotionArrays;
 use posekit_formats::bvh::edit::{EditError, scale};
@@ -20,7 +20,7 @@ fn shot() -> Shot {
 #[test]
 fn some_frames_of_a_scene_are_those_of_all() {
     let shot = shot();
-    for rate in [None, Some(7.0)] {
+    for rate in [None, Some(FrameTime::of_fps(7))] {
         let whole = shot.bake(rate);
         assert_eq!(shot.frame_count(rate), whole.frame_count());
         let chosen = [5, 0, 3, 3, whole.frame_count() - 1];

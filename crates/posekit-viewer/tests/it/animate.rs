@@ -207,7 +207,11 @@ fn blocks_edits_saves_and_reopens(input: Input, names: [&str; 2]) {
         read,
         place::written(authored(&window).scene(), folder_of_it)
     );
-    assert_eq!(scene::write(&read).unwrap(), bytes, "to the byte");
+    assert_eq!(
+        scene::write(&read).expect("it can be written"),
+        bytes,
+        "to the byte"
+    );
     assert!(!authored(&window).is_dirty());
     let again = laptop(vec![Input::Path(place_of_file.clone())]);
     assert_eq!(authored(&again).scene(), authored(&window).scene());

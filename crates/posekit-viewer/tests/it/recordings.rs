@@ -174,7 +174,7 @@ fn an_animated_clip_keeps_the_order_of_its_files_angles() {
     clip.source = posekit_viewer::state::clip::Source::File(path.clone());
     let authored = start(&clip, Start::OverMotion, 0.0, false).expect("it has a file");
     assert_eq!(authored.order_of(elbow), EulerOrder::YXZ);
-    let text = scene::write(authored.scene());
+    let text = scene::write(authored.scene()).expect("it can be written");
     let mut session = Session::default();
     let id = session.open(clip);
     session.put_authored(id, authored);

@@ -209,5 +209,8 @@ fn viewer_mut(window: &mut Window) -> &mut posekit_viewer::Viewer {
 fn window_line(window: &Window) -> (usize, usize) {
     let said = says(window, "text");
     let (line, count) = said.split_once(" of ").unwrap_or_else(|| panic!("{said}"));
-    (line.parse().unwrap(), count.parse().unwrap())
+    (
+        line.parse().expect("a line"),
+        count.parse().expect("a count"),
+    )
 }

@@ -343,7 +343,9 @@ fn the_studio_light_stays_until_it_is_switched_off() {
     assert!(lit.casting_lamp().is_none() && lit.is_lit());
     session.set_studio_light(false);
     assert!(session.scene().casting_lamp().is_some());
-    let read = |session: &Session| scene::read(&scene::write(scene_of(session))).expect("written");
+    let read = |session: &Session| {
+        scene::read(&scene::write(scene_of(session)).expect("it can be written")).expect("written")
+    };
     assert!(!read(&session).studio_light);
     session.undo();
     assert_eq!(session.studio_light(), Some(true));

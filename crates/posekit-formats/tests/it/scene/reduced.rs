@@ -16,6 +16,10 @@ use proptest::prelude::*;
 
 /// Numbers of all sizes, the ends of what `f32` and posekit hold among them.
 fn coordinate() -> impl Strategy<Value = f32> {
+    #[allow(
+        clippy::cast_possible_truncation,
+        reason = "the nearest f32 is what is meant"
+    )]
     let longest = LONGEST_LENGTH as f32;
     prop_oneof![
         4 => -100.0_f32..100.0,
