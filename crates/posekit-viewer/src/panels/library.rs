@@ -373,7 +373,12 @@ fn folder(ui: &mut Ui, session: &Session, library: &Library<Preview>, asked: &mu
                 asked.requests.push(request);
             }
         }
-        let response = response.on_hover_text(entry.path.display().to_string());
+        let says = if cfg!(target_arch = "wasm32") {
+            entry.name.clone()
+        } else {
+            entry.path.display().to_string()
+        };
+        let response = response.on_hover_text(says);
         if response.clicked() {
             let beside = ui.input(|i| i.modifiers.shift || i.modifiers.command);
             asked

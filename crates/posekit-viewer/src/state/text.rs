@@ -397,11 +397,11 @@ mod tests {
         assert_eq!(text.frame_at(0), None);
         assert!(file[text.joint(knee).unwrap()].starts_with("JOINT knee"));
         let shown: Vec<_> = text
-            .values(0..file.len(), &[3..5])
+            .values(0..file.len(), std::slice::from_ref(&(3..5)))
             .into_iter()
             .map(|place| &file[place])
             .collect();
         assert_eq!(shown, ["4 5", "9 10"]);
-        assert_eq!(text.values(row, &[0..1]).len(), 1);
+        assert_eq!(text.values(row, std::slice::from_ref(&(0..1))).len(), 1);
     }
 }

@@ -85,7 +85,7 @@ struct Limits {
 fn seconds(text: &str) -> Result<Duration, String> {
     let secs: f64 = text
         .parse()
-        .map_err(|_| "not a number of seconds".to_owned())?;
+        .map_err(|_not_a_number| "not a number of seconds".to_owned())?;
     Duration::try_from_secs_f64(secs).map_err(|error| error.to_string())
 }
 
