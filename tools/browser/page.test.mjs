@@ -228,7 +228,7 @@ test("a listed file is saved as it is, and its text shown beside the figure", { 
   const own = await serve();
   const folder = mkdtempSync(join(tmpdir(), "posekit-listed-"));
   // A name that needs care in addresses, headers and pages, and a file that nobody would write back as it is.
-  const name = `zz caf\u00e9 "1" & 100% #2.bvh`;
+  const name = `zz d\u00e9fil\u00e9 "1" & 100% #2.bvh`;
   const bytes = Buffer.from(readFileSync(join(own.folder, "wave.bvh"), "latin1").replace("MOTION", "# by hand\nMOTION").replaceAll("\n", "\r\n"), "latin1");
   writeFileSync(join(own.folder, name), bytes);
   let desk;
