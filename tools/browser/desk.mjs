@@ -30,8 +30,7 @@ export class Desk {
     page.setDefaultTimeout(PATIENCE_MS);
     const desk = new Desk(browser, running, page);
     page.on("console", (line) => desk.listen(line));
-    // Requests that were begun and given up show red in a browser's tools.
-    page.on("requestfailed", (request) => desk.complaints.push(`${request.failure()?.errorText}: ${request.url()}`));
+    page.on("requestfailed", (request) => desk.failed(request));
     page.on("pageerror", (error) => desk.complaints.push(String(error?.stack ?? error)));
     await page.setViewport(window);
     if (dark) await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: "dark" }]);
@@ -42,7 +41,7 @@ export class Desk {
   }
 
   constructor(browser, running, page) {
-    Object.assign(this, { browser, running, page, complaints: [], opened: 0 });
+    Object.assign(this, { browser, running, page, complaints: [], opened: 0, isLeaving: false });
   }
 
   listen(line) {
@@ -55,13 +54,22 @@ export class Desk {
     }
   }
 
+  /** Requests that were begun and given up show red in a browser's tools, but for those of a page that was left. */
+  failed(request) {
+    if (this.isLeaving) return;
+    this.complaints.push(`${request.failure()?.errorText}: ${request.url()}`);
+  }
+
   close() {
+    this.isLeaving = true;
     return this.running.close();
   }
 
   /** Goes to an address. */
   async goto(address) {
+    this.isLeaving = true;
     await this.page.goto(address, { waitUntil: "load" });
+    this.isLeaving = false;
   }
 
   /** Waits until `test` holds, and gives what it gave; `what` is what was waited for. */

@@ -10,6 +10,7 @@ use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 
@@ -25,6 +26,14 @@ pub(crate) fn default_workers() -> NonZeroUsize {
     thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)
 }
 
+/// How many threads a file may have to itself; 0 until something runs.
+static HANDS: AtomicUsize = AtomicUsize::new(0);
+
+/// How many threads each of the pieces of work that run now may use: all of them, where there is one.
+pub(crate) fn hands() -> NonZeroUsize {
+    NonZeroUsize::new(HANDS.load(Ordering::Relaxed)).unwrap_or(NonZeroUsize::MIN)
+}
+
 /// Runs `work(0)`, ..., `work(count - 1)` on up to `workers` threads and hands every result to
 /// `emit`, on the calling thread and in order, until it breaks off.
 pub(crate) fn in_order<T: Send>(
@@ -34,6 +43,7 @@ pub(crate) fn in_order<T: Send>(
     mut emit: impl FnMut(usize, Worked<T>) -> ControlFlow<()>,
 ) {
     let worker_count = workers.get().min(count);
+    HANDS.store(workers.get() / worker_count.max(1), Ordering::Relaxed);
     if worker_count <= 1 {
         for index in 0..count {
             if emit(index, catch_unwind(AssertUnwindSafe(|| work(index)))).is_break() {

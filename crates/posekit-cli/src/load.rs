@@ -1,7 +1,10 @@
 //! From an input to the document in it.
 
+use std::ops::ControlFlow;
+use std::thread;
+
 use posekit::motion::{Motion, PositionPolicies};
-use posekit_formats::bvh::{self, Bvh, Gap};
+use posekit_formats::bvh::{self, Bvh, Gap, PIECE_BYTES, Piece, ReadOptions};
 use posekit_formats::report::{Import, ImportReport, ReadError, ReadErrorKind, Severity, Warning};
 use posekit_formats::urdf::{self, Urdf};
 
@@ -9,6 +12,7 @@ use crate::args::Global;
 use crate::bytes;
 use crate::failure::{Failure, one_line};
 use crate::inputs::{Input, Source};
+use crate::jobs;
 use crate::scene_file::{self, Asked, Part};
 
 /// A document and what its reader had to say.
@@ -227,9 +231,32 @@ fn load_import_by(
     })
 }
 
+/// Below this a file is read before other threads would have begun.
+const LARGE_BYTES: usize = 8 << 20;
+
+/// Reads BVH, a large file on all cores that this file has to itself.
+fn read_bvh(bytes: &[u8]) -> Result<Import<Bvh>, ReadError> {
+    let hands = jobs::hands().get();
+    if bytes.len() < LARGE_BYTES || hands == 1 {
+        return bvh::read(bytes);
+    }
+    let go_on = |_| ControlFlow::Continue(());
+    let options = ReadOptions::default();
+    bvh::read_in_pieces(bytes, options, PIECE_BYTES, go_on, |pieces| {
+        let share = pieces.len().div_ceil(hands).max(1);
+        thread::scope(|threads| {
+            for part in pieces.chunks_mut(share) {
+                let work = move || part.iter_mut().for_each(Piece::work);
+                // Where no thread can be had, the pieces are read after the others.
+                drop(thread::Builder::new().spawn_scoped(threads, work));
+            }
+        });
+    })
+}
+
 /// Reads a file whose values are numbers, all of them.
 fn parse_whole(name: &str, bytes: &[u8]) -> Result<(Import<Bvh>, Vec<Gap>), Failure> {
-    bvh::read(bytes)
+    read_bvh(bytes)
         .map(|import| (import, Vec::new()))
         .map_err(|error| refused(name, bytes, &error))
 }

@@ -17,7 +17,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use harness::{Table, Unit, time_asked};
-use posekit_formats::bvh::{self, ReadOptions, RowParser};
+use posekit_formats::bvh::{self, PIECE_BYTES, Piece, ReadOptions, RowParser};
 
 /// The size of the large file, in bytes.
 const LARGE: usize = 100_000_000;
@@ -60,6 +60,26 @@ fn read(bytes: &[u8], row_parser: RowParser) -> usize {
     import.document.frame_count()
 }
 
+/// As the command reads a large file.
+fn read_in_pieces(bytes: &[u8], threads: usize) -> usize {
+    let go_on = |_| ControlFlow::Continue(());
+    let import = bvh::read_in_pieces(
+        bytes,
+        ReadOptions::default(),
+        PIECE_BYTES,
+        go_on,
+        |pieces| {
+            let share = pieces.len().div_ceil(threads).max(1);
+            std::thread::scope(|scope| {
+                for part in pieces.chunks_mut(share) {
+                    scope.spawn(|| part.iter_mut().for_each(Piece::work));
+                }
+            });
+        },
+    );
+    import.unwrap().document.frame_count()
+}
+
 /// Splits the rows at blanks and parses every word into a vector that is large enough from the start.
 fn bare_loop(bytes: &[u8], parse: fn(&str) -> f64) -> usize {
     let text = std::str::from_utf8(bytes).unwrap();
@@ -82,6 +102,15 @@ fn measure(what: &str, bytes: &[u8]) {
     table.job("posekit, careful", size, || {
         black_box(read(black_box(bytes), RowParser::Careful));
     });
+    for threads in [1, 2, 4] {
+        table.job(
+            format!("posekit, in pieces on {threads} threads"),
+            size,
+            move || {
+                black_box(read_in_pieces(black_box(bytes), threads));
+            },
+        );
+    }
     table.reference("std parse, bare loop", size, || {
         black_box(bare_loop(black_box(bytes), |word| word.parse().unwrap()));
     });

@@ -44,7 +44,7 @@ pub use convert::MotionError;
 pub use document::{Bvh, BvhJoint, BvhMotion, EndName, InvalidBvh};
 pub use fix::{Change, ChangeCode, FixConfig, Fixed, NameRepair, fix, unwrap_flips};
 pub use read::{
-    Extent, MAX_DEPTH, MAX_JOINTS, MAX_NAME_BYTES, PROGRESS_BYTES, Places, ReadOptions, RowParser,
-    locate, read, read_with, read_with_gaps,
+    Extent, MAX_DEPTH, MAX_JOINTS, MAX_NAME_BYTES, PIECE_BYTES, PROGRESS_BYTES, Piece, Places,
+    ReadOptions, RowParser, locate, read, read_in_pieces, read_with, read_with_gaps,
 };
 pub use write::{Indent, LineEnding, WriteOptions, write, write_motion_to, write_to};

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use crate::bvh_real_files::{bits, files};
 use crate::bvh_text::with_rows;
-use posekit_formats::bvh::{self, Bvh, ReadOptions, RowParser};
+use posekit_formats::bvh::{self, Bvh, Piece, ReadOptions, RowParser};
 use posekit_formats::report::{Import, ReadError};
 use proptest::prelude::*;
 
@@ -20,21 +20,78 @@ fn read(bytes: &[u8], row_parser: RowParser) -> Result<Import<Bvh>, ReadError> {
     )
 }
 
-/// Checks that all parsers agree, and gives what they agree on.
+/// Who works on pieces, and how long those are.
+#[derive(Clone, Copy, Debug)]
+enum Work {
+    /// The last first.
+    Backwards(usize),
+    /// Every third is left out the second time.
+    Some(usize),
+    /// All on two threads.
+    Threads(usize),
+    /// None.
+    Nobody(usize),
+}
+
+fn read_in_pieces(bytes: &[u8], work: Work) -> Result<Import<Bvh>, ReadError> {
+    let (Work::Backwards(piece_bytes)
+    | Work::Some(piece_bytes)
+    | Work::Threads(piece_bytes)
+    | Work::Nobody(piece_bytes)) = work;
+    let mut calls = 0;
+    bvh::read_in_pieces(
+        bytes,
+        ReadOptions::default(),
+        piece_bytes,
+        |_| ControlFlow::Continue(()),
+        |pieces| {
+            calls += 1;
+            match work {
+                Work::Backwards(_) => pieces.iter_mut().rev().for_each(Piece::work),
+                Work::Some(_) => {
+                    for (index, piece) in pieces.iter_mut().enumerate() {
+                        if calls == 1 || index % 3 != 2 {
+                            piece.work();
+                        }
+                    }
+                }
+                Work::Threads(_) => std::thread::scope(|threads| {
+                    let half = pieces.len().div_ceil(2).max(1);
+                    for part in pieces.chunks_mut(half) {
+                        threads.spawn(|| part.iter_mut().for_each(Piece::work));
+                    }
+                }),
+                Work::Nobody(_) => {}
+            }
+        },
+    )
+}
+
+/// Checks that all parsers agree, and with reading in pieces of a few bytes to many; gives what they agree on.
 fn agreed(bytes: &[u8]) -> Result<Import<Bvh>, ReadError> {
     let careful = read(bytes, RowParser::Careful);
-    for parser in [RowParser::Portable, RowParser::Fastest] {
-        let fast = read(bytes, parser);
-        match (&careful, &fast) {
+    let same =
+        |how: &dyn std::fmt::Debug, fast: Result<Import<Bvh>, ReadError>| match (&careful, &fast) {
             (Ok(careful), Ok(fast)) => {
-                assert!(
-                    bits(&careful.document) == bits(&fast.document),
-                    "{parser:?}"
-                );
-                assert_eq!(careful.report, fast.report, "{parser:?}");
+                assert!(bits(&careful.document) == bits(&fast.document), "{how:?}");
+                assert_eq!(careful.report, fast.report, "{how:?}");
             }
-            (Err(careful), Err(fast)) => assert_eq!(careful, fast, "{parser:?}"),
-            _ => panic!("{parser:?} gives {fast:?}, the scanner {careful:?}"),
+            (Err(careful), Err(fast)) => assert_eq!(careful, fast, "{how:?}"),
+            _ => panic!("{how:?} gives {fast:?}, the scanner {careful:?}"),
+        };
+    for parser in [RowParser::Portable, RowParser::Fastest] {
+        same(&parser, read(bytes, parser));
+    }
+    for work in [
+        Work::Backwards(0),
+        Work::Backwards(50),
+        Work::Some(300),
+        Work::Threads(4000),
+        Work::Nobody(100),
+    ] {
+        // Pieces of a few bytes of a file of megabytes are of no use to anybody.
+        if bytes.len() < 100_000 || matches!(work, Work::Threads(_)) {
+            same(&work, read_in_pieces(bytes, work));
         }
     }
     careful
@@ -136,6 +193,31 @@ proptest! {
             prop_assert!(bits(&import.document) == bits(&again.document));
         }
     }
+}
+
+/// Pieces are taken only if nothing about them is odd, and all of a sound file is.
+#[test]
+fn a_sound_file_is_read_in_pieces_to_its_last_line() {
+    let rows: String = (0..5000)
+        .map(|frame| format!("{frame} -0.5 {frame}.25 1e-3\n"))
+        .collect();
+    let text = with_rows(5000, &rows);
+    let (mut bytes_in_pieces, mut calls) = (0, 0);
+    let import = bvh::read_in_pieces(
+        text.as_bytes(),
+        ReadOptions::default(),
+        1000,
+        |_| ControlFlow::Continue(()),
+        |pieces| {
+            calls += 1;
+            bytes_in_pieces = pieces.iter().map(Piece::byte_count).sum();
+            pieces.iter_mut().for_each(Piece::work);
+        },
+    )
+    .unwrap();
+    assert_eq!((calls, bytes_in_pieces), (2, rows.len()));
+    let whole = bvh::read(text.as_bytes()).unwrap();
+    assert!(bits(&import.document) == bits(&whole.document));
 }
 
 #[test]

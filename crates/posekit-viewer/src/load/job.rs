@@ -4,10 +4,14 @@
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
+#[cfg(not(target_arch = "wasm32"))]
+use std::sync::atomic::{AtomicU64, Ordering};
 
-use posekit_formats::bvh::{self, Extent, ReadOptions};
+#[cfg(not(target_arch = "wasm32"))]
+use posekit_formats::bvh::PIECE_BYTES;
+use posekit_formats::bvh::{self, Bvh, Extent, ReadOptions};
 use posekit_formats::poses::{self, SavedPose, is_poses_name};
-use posekit_formats::report::ReadErrorKind;
+use posekit_formats::report::{Import, ReadError, ReadErrorKind};
 
 use super::scene::{ReadScene, read_scene};
 use super::{Chosen, Event, Input, JobId, Outbox, Progress, Purpose, SummaryNumbers};
@@ -222,7 +226,7 @@ impl Reading {
                 ControlFlow::Continue(())
             }
         };
-        let import = bvh::read_with(bytes, ReadOptions::default(), step).map_err(|error| {
+        let import = self.read_bvh(bytes, step).map_err(|error| {
             if error.kind == ReadErrorKind::Cancelled {
                 Stop::Cancelled
             } else {
@@ -240,6 +244,58 @@ impl Drop for Reading {
             let why = format!("{}: the reader failed; please report the file", self.name);
             self.hand_in(Err(Stop::Failed(why)));
         }
+    }
+}
+
+/// Reads BVH; a large file on all cores, where there are threads.
+#[cfg(not(target_arch = "wasm32"))]
+impl Reading {
+    fn read_bvh(
+        &self,
+        bytes: &[u8],
+        step: impl FnMut(usize) -> ControlFlow<()>,
+    ) -> Result<Import<Bvh>, ReadError> {
+        let hands = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+        let options = ReadOptions::default();
+        if bytes.len() as u64 <= SMALL_BYTES || hands == 1 {
+            return bvh::read_with(bytes, options, step);
+        }
+        let (length, done) = (bytes.len() as u64, AtomicU64::new(0));
+        bvh::read_in_pieces(bytes, options, PIECE_BYTES, step, |pieces| {
+            let share = pieces.len().div_ceil(hands).max(1);
+            std::thread::scope(|threads| {
+                for part in pieces.chunks_mut(share) {
+                    let work = || {
+                        for piece in part {
+                            // What is left out is asked about when it is read after the others.
+                            if self.progress.is_cancelled() {
+                                return;
+                            }
+                            piece.work();
+                            // Each piece is worked on twice.
+                            let half = piece.byte_count() as u64 / 2;
+                            let done = done.fetch_add(half, Ordering::Relaxed) + half;
+                            self.progress.set_done(length + done);
+                        }
+                        self.outbox.wake();
+                    };
+                    // Where no thread can be had, the pieces are read after the others.
+                    drop(std::thread::Builder::new().spawn_scoped(threads, work));
+                }
+            });
+        })
+    }
+}
+
+/// Reads BVH; a page has one thread.
+#[cfg(target_arch = "wasm32")]
+impl Reading {
+    fn read_bvh(
+        &self,
+        bytes: &[u8],
+        step: impl FnMut(usize) -> ControlFlow<()>,
+    ) -> Result<Import<Bvh>, ReadError> {
+        bvh::read_with(bytes, ReadOptions::default(), step)
     }
 }
 

@@ -437,10 +437,15 @@ fn listed(ui: &mut Ui, entry: &Entry<Preview>, common: usize, asked: &mut Asked)
             asked.requests.push(request);
         }
     }
-    let whole = entry.path.display();
+    // On a page the path is an address, with signs for blanks.
+    let whole = if cfg!(target_arch = "wasm32") {
+        entry.name.clone()
+    } else {
+        entry.path.display().to_string()
+    };
     let response = match &entry.state {
         EntryState::Refused(why) => response.on_hover_text(format!("{whole}\n{why}")),
-        EntryState::Unknown | EntryState::Ready(_) => response.on_hover_text(whole.to_string()),
+        EntryState::Unknown | EntryState::Ready(_) => response.on_hover_text(whole),
     };
     if response.clicked() {
         let beside = ui.input(|i| i.modifiers.shift || i.modifiers.command);

@@ -272,6 +272,9 @@ impl<'a> Page<'a> {
         let is_new = before.is_none_or(|before| before.clip != now.clip);
         let joint_changed = before.is_some_and(|before| before.selection != now.selection);
         let frame_changed = is_new || before.is_some_and(|before| before.frame != now.frame);
+        if joint_changed && self.shows_rows(ui, origin) {
+            self.bring_columns(ui, origin);
+        }
         let target = if frame_changed && !plays {
             self.row.as_ref()
         } else if joint_changed && !plays && !self.shows_rows(ui, origin) {
@@ -286,9 +289,29 @@ impl<'a> Page<'a> {
         let clip = ui.clip_rect();
         let line = Rect::from_min_size(pos2(clip.left(), top), vec2(1.0, self.cell.y));
         if !clip.contains_rect(line) {
-            let across = clip.left()..=clip.left();
-            let place = Rect::from_x_y_ranges(across, line.y_range());
+            // As wide as the panel, so that nothing moves to the side.
+            let place = Rect::from_x_y_ranges(clip.x_range(), line.y_range());
             ui.scroll_to_rect(place, Some(Align::Center));
+        }
+    }
+
+    /// Moves the text to the side until the columns of the joint that was selected last are seen.
+    fn bring_columns(&self, ui: &Ui, origin: egui::Pos2) {
+        let row = self.row.as_ref().map(|row| row.start..row.start + 1);
+        let values = row.map(|row| self.text.values(row, &self.columns));
+        let Some(value) = values.as_ref().and_then(|values| values.last()) else {
+            return;
+        };
+        let line = self.text.line_at(value.start);
+        let Some(line) = self.text.lines(line..line + 1).next() else {
+            return;
+        };
+        let x = |byte: usize| origin.x + float(line.column_of(byte)) * self.cell.x;
+        // The numbers of the lines lie over what is at the left.
+        let across = x(value.start)..=x(value.end) + self.gutter;
+        let clip = ui.clip_rect();
+        if !clip.x_range().contains(*across.start()) || !clip.x_range().contains(*across.end()) {
+            ui.scroll_to_rect(Rect::from_x_y_ranges(across, clip.y_range()), None);
         }
     }
 

@@ -208,9 +208,7 @@ fn viewer_mut(window: &mut Window) -> &mut posekit_viewer::Viewer {
 /// The line of the frame's row, and how many there are.
 fn window_line(window: &Window) -> (usize, usize) {
     let said = says(window, "text");
-    let (line, count) = said.split_once(" of ").unwrap_or_else(|| panic!("{said}"));
-    (
-        line.parse().expect("a line"),
-        count.parse().expect("a count"),
-    )
+    let numbers = said.split_once(" of ");
+    let numbers = numbers.and_then(|(line, count)| Some((line.parse().ok()?, count.parse().ok()?)));
+    numbers.unwrap_or_else(|| panic!("{said}"))
 }

@@ -305,8 +305,8 @@ mod tests {
                 "filename=\"__.bvh\"; filename*=UTF-8''%22%25.bvh",
             ),
             (
-                "caf%C3%A9.bvh",
-                "filename=\"caf_.bvh\"; filename*=UTF-8''caf%C3%A9.bvh",
+                "d%C3%A9fil%C3%A9.bvh",
+                "filename=\"d_fil_.bvh\"; filename*=UTF-8''d%C3%A9fil%C3%A9.bvh",
             ),
             (
                 "it's.bvh",

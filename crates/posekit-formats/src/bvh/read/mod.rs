@@ -9,6 +9,7 @@ mod hierarchy;
 mod motion;
 mod motion_header;
 mod number;
+mod pieces;
 mod places;
 mod rows;
 mod scan;
@@ -18,6 +19,7 @@ use std::ops::{ControlFlow, Range};
 use super::{Bvh, Gap};
 use crate::report::{Import, ReadError, ReadErrorKind};
 use motion::Wanted;
+pub use pieces::{PIECE_BYTES, Piece};
 pub use places::{Places, locate};
 use scan::{Comma, Scanner};
 
@@ -92,6 +94,59 @@ pub fn read_with(
     Ok(read.import)
 }
 
+/// Reads a BVH file as [`read_with`] does, to the bit, with most of the work in pieces that may be done on several
+/// threads.
+///
+/// `run` is called twice, each time with the pieces of the rows, `piece_bytes` long or a little more; it calls
+/// [`Piece::work`] once on each, in any order, on any thread. Where it leaves pieces out, to stop for instance,
+/// they are read after it, and `progress` is called as ever. [`PIECE_BYTES`] is a good length. From the first
+/// piece on in which something about the rows is odd, the file is read by this thread alone.
+///
+/// ```
+/// use posekit_formats::bvh::{self, PIECE_BYTES, ReadOptions};
+/// use std::ops::ControlFlow;
+///
+/// # let text = b"HIERARCHY ROOT hip { OFFSET 0 0 0 CHANNELS 1 Yrotation End Site { OFFSET 0 1 0 } }
+/// # MOTION Frames: 2 Frame Time: 0.5
+/// # 10
+/// # 20.5
+/// # ";
+/// let import = bvh::read_in_pieces(
+///     text,
+///     ReadOptions::default(),
+///     PIECE_BYTES,
+///     |_| ControlFlow::Continue(()),
+///     |pieces| {
+///         let half = pieces.len().div_ceil(2).max(1);
+///         std::thread::scope(|threads| {
+///             for part in pieces.chunks_mut(half) {
+///                 threads.spawn(|| part.iter_mut().for_each(|piece| piece.work()));
+///             }
+///         });
+///     },
+/// )?;
+/// assert_eq!(import.document, bvh::read(text)?.document);
+/// # Ok::<(), posekit_formats::report::ReadError>(())
+/// ```
+///
+/// # Errors
+///
+/// As [`read_with`].
+pub fn read_in_pieces(
+    bytes: &[u8],
+    options: ReadOptions,
+    piece_bytes: usize,
+    mut progress: impl FnMut(usize) -> ControlFlow<()>,
+    mut run: impl FnMut(&mut [Piece<'_>]),
+) -> Result<Import<Bvh>, ReadError> {
+    let wanted = Wanted {
+        pieces: Some((piece_bytes, &mut run)),
+        ..Wanted::default()
+    };
+    let read = read_document(bytes, options, &mut progress, wanted)?;
+    Ok(read.import)
+}
+
 /// Reads a BVH file in which values of the rows may not be numbers (`nan`, `inf`, `-nan(ind)`, `1.#QNAN`, or
 /// beyond a double), and says where: the gaps, by frame and column. The document holds 0 in their place, which
 /// means nothing; [`bridge_gaps`](crate::bvh::bridge_gaps) makes a motion of it.
@@ -104,7 +159,7 @@ pub fn read_with_gaps(bytes: &[u8]) -> Result<(Import<Bvh>, Vec<Gap>), ReadError
     let mut progress = |_| ControlFlow::Continue(());
     let wanted = Wanted {
         gaps: Some(&mut gaps),
-        starts: None,
+        ..Wanted::default()
     };
     let read = read_document(bytes, ReadOptions::default(), &mut progress, wanted)?;
     Ok((read.import, gaps))

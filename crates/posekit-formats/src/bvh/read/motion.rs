@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::motion_header::{self, MotionHeader};
+use super::pieces::{self, Piece};
 use super::rows::{self, Lines, Rows};
 use super::scan::{Scanner, is_blank};
 use super::{Extent, PROGRESS_BYTES, ReadOptions, RowParser, number};
@@ -17,7 +18,12 @@ pub(super) struct Wanted<'w> {
     pub(super) gaps: Option<&'w mut Vec<Gap>>,
     /// Where the rows begin. Only the careful parser says.
     pub(super) starts: Option<&'w mut Vec<usize>>,
+    /// The size of pieces in which the rows are read first, and who reads them.
+    pub(super) pieces: Option<(usize, &'w mut RunPieces<'w>)>,
 }
+
+/// Who has pieces worked on.
+pub(super) type RunPieces<'r> = dyn FnMut(&mut [Piece<'_>]) + 'r;
 
 /// Reads the section; the scanner stands after MOTION.
 pub(super) fn read(
@@ -37,8 +43,14 @@ pub(super) fn read(
         return Ok(read_no_rows(scanner, &header));
     }
     let before = (scanner.pos, scanner.comma, scanner.reporter.clone());
+    let rows = match wanted.pieces {
+        Some((piece_bytes, run)) => {
+            pieces::read(scanner, channel_count, options.row_parser, piece_bytes, run)
+        }
+        None => Rows::new(channel_count, values_expected, Lines::Ignored),
+    };
     let mut walk = RowWalk {
-        rows: Rows::new(channel_count, values_expected, Lines::Ignored),
+        rows,
         promised: header.frame_count.map(|frames| frames * channel_count),
         parser: options.row_parser,
         keeps_gaps: wanted.gaps.is_some(),
@@ -125,20 +137,20 @@ fn read_no_rows(scanner: &mut Scanner<'_>, header: &MotionHeader) -> BvhMotion {
 }
 
 /// A walk over the rows, from the first to whatever ends them.
-struct RowWalk<'p> {
-    rows: Rows,
+pub(super) struct RowWalk<'p> {
+    pub(super) rows: Rows,
     /// How many values the header promises.
-    promised: Option<usize>,
-    parser: RowParser,
+    pub(super) promised: Option<usize>,
+    pub(super) parser: RowParser,
     /// Whether a value that is no number is a gap, NaN until the rows are whole.
-    keeps_gaps: bool,
+    pub(super) keeps_gaps: bool,
     /// Whether values beyond the range are noted, each with its place; the parser is the careful one then.
-    notes_out_of_range: bool,
-    progress: &'p mut dyn FnMut(usize) -> ControlFlow<()>,
+    pub(super) notes_out_of_range: bool,
+    pub(super) progress: &'p mut dyn FnMut(usize) -> ControlFlow<()>,
 }
 
 impl RowWalk<'_> {
-    fn read(&mut self, scanner: &mut Scanner<'_>) -> Result<(), ReadError> {
+    pub(super) fn read(&mut self, scanner: &mut Scanner<'_>) -> Result<(), ReadError> {
         let mut next_call = scanner.pos.saturating_add(PROGRESS_BYTES);
         loop {
             let pos = scanner.pos;

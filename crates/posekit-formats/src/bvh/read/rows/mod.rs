@@ -76,6 +76,24 @@ impl Rows {
         }
     }
 
+    /// Rows of which every line had the values of one: as reading them leaves it.
+    pub(super) fn of_whole_lines(channel_count: usize, values: Vec<f64>) -> Self {
+        Self {
+            line_start: values.len(),
+            in_step: values.len(),
+            whole_lines: values.len() / channel_count,
+            values,
+            ..Self::new(channel_count, 0, Lines::Ignored)
+        }
+    }
+
+    /// Whether every line that has values has those of one row.
+    pub(super) fn are_all_whole_lines(&self) -> bool {
+        self.odd_lines == 0
+            && self.line_start == self.values.len()
+            && self.values.len() == self.whole_lines * self.channel_count
+    }
+
     /// Notes where rows begin from here on. Values then come by [`push_from`](Self::push_from).
     pub(super) fn keep_starts(&mut self) {
         self.starts = Some(Starts::default());
