@@ -94,7 +94,6 @@ impl Sides {
     }
 
     /// The panel of a side, `least` wide, and `first` at first.
-    #[must_use]
     pub fn panel(self, side: Side, id: &'static str, (least, first): (f32, f32), ui: &Ui) -> Panel {
         let room = ui.available_size();
         let panel = match (self.room, side) {
