@@ -240,8 +240,10 @@ impl<W: Write + Seek> NpzWriter<W> {
 #[derive(Debug)]
 struct Sink<W> {
     out: W,
-    /// Where the next byte goes.
     position: u64,
+    /// The farthest position there was: where a broken output always is, since no entry of the archive that is
+    /// finished then may end before it began.
+    farthest: u64,
     is_broken: bool,
 }
 
@@ -250,6 +252,7 @@ impl<W> Sink<W> {
         Self {
             out,
             position: 0,
+            farthest: 0,
             is_broken: false,
         }
     }
@@ -261,18 +264,21 @@ impl<W> Sink<W> {
         self.is_broken |= result.as_ref().is_err_and(is_failure);
         result
     }
+
+    fn go_to(&mut self, position: u64) {
+        self.position = position;
+        self.farthest = self.farthest.max(position);
+    }
 }
 
 impl<W: Write> Write for Sink<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        let written = match self.is_broken {
-            true => bytes.len(),
-            false => {
-                let written = self.out.write(bytes);
-                self.checked(written)?
-            }
-        };
-        self.position += written as u64;
+        if self.is_broken {
+            return Ok(bytes.len());
+        }
+        let written = self.out.write(bytes);
+        let written = self.checked(written)?;
+        self.go_to(self.position + written as u64);
         Ok(written)
     }
 
@@ -287,17 +293,13 @@ impl<W: Write> Write for Sink<W> {
 
 impl<W: Seek> Seek for Sink<W> {
     fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
-        self.position = match (self.is_broken, to) {
-            (false, _) => {
-                let sought = self.out.seek(to);
-                self.checked(sought)?
-            }
-            (true, SeekFrom::Start(position)) => position,
-            (true, SeekFrom::Current(by) | SeekFrom::End(by)) => {
-                self.position.saturating_add_signed(by)
-            }
-        };
-        Ok(self.position)
+        if self.is_broken {
+            return Ok(self.farthest);
+        }
+        let sought = self.out.seek(to);
+        let position = self.checked(sought)?;
+        self.go_to(position);
+        Ok(position)
     }
 }
 

@@ -55,6 +55,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, tree: &mut JointTree) -> Option<
     ui.spacing_mut().item_spacing.y = 0.0;
     let area = ScrollArea::vertical()
         .id_salt("joints")
+        .min_scrolled_height(JOINT_ROW)
         .auto_shrink([false, false]);
     area.show(ui, |ui| {
         for (joint, depth) in rows {

@@ -51,6 +51,7 @@ pub fn show(
     ui.add_space(GAP);
     ScrollArea::vertical()
         .id_salt("clips")
+        .min_scrolled_height(CLIP_ROW)
         .auto_shrink([false, false])
         .show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 2.0;

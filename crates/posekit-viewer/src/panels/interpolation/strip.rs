@@ -10,8 +10,12 @@ use crate::state::interpolation::{InterpolationLab, Page, Picture};
 use crate::state::mode::{Space, TURN_STEP_DEG};
 use crate::theme::{GAP, Palette};
 
+/// Under these widths the strip leaves out what keys do as well, and the list of keys with a click.
+const SNAP_ROOM: f32 = 760.0;
+const UNDO_ROOM: f32 = 560.0;
+
 /// Under this width the cards stand under each other.
-const NARROW: f32 = 780.0;
+const NARROW: f32 = 480.0;
 
 /// Shows it.
 pub(super) fn show(ui: &mut Ui, rect: Rect, lab: &mut InterpolationLab, asked: &mut Asked) {
@@ -32,11 +36,15 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, lab: &mut InterpolationLab, asked: &
         match lab.page() {
             Page::Orientations => {
                 card(ui, |ui| pictures(ui, lab));
-                card(ui, |ui| {
-                    let (undo, redo) = lab.can_undo_redo();
-                    row::undo_buttons(ui, (undo.into(), redo.into()), 22.0, asked);
-                    rings(ui, lab, asked);
-                });
+                if room.width() >= UNDO_ROOM {
+                    card(ui, |ui| {
+                        let (undo, redo) = lab.can_undo_redo();
+                        row::undo_buttons(ui, (undo.into(), redo.into()), 22.0, asked);
+                        if room.width() >= SNAP_ROOM {
+                            rings(ui, lab, asked);
+                        }
+                    });
+                }
             }
             Page::Clip => card(ui, |ui| arrangements(ui, lab)),
         }

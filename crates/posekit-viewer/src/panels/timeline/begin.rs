@@ -8,6 +8,9 @@ use crate::state::animate::Start;
 use crate::state::session::Session;
 use crate::theme::{GAP, Palette};
 
+/// What a choice does stands beside it where there is this much room, and otherwise below it.
+const BESIDE: f32 = 620.0;
+
 /// What is set before a clip is reduced to keys.
 #[derive(Debug, Default)]
 pub(super) struct Begin {
@@ -30,13 +33,23 @@ pub(super) fn show(ui: &mut Ui, session: &Session, begin: &mut Begin, asked: &mu
     ui.label(RichText::new(text).color(palette.quiet));
     ui.add_space(2.0 * GAP);
     let mut choice = |ui: &mut Ui, name: &str, says: &str, start: Start| {
-        ui.horizontal(|ui| {
-            let button = ui.add_sized([210.0, 26.0], Button::new(name));
+        let height = ui.spacing().interact_size.y.max(26.0);
+        let says = egui::Label::new(RichText::new(says).color(palette.quiet)).wrap();
+        let mut button = |ui: &mut Ui| {
+            let button = ui.add_sized([210.0, height], Button::new(name));
             if button.clicked() {
                 asked.requests.push(Request::Author(start));
             }
-            ui.label(RichText::new(says).color(palette.quiet));
-        });
+        };
+        if ui.available_width() < BESIDE {
+            button(ui);
+            ui.add(says);
+        } else {
+            ui.horizontal(|ui| {
+                button(ui);
+                ui.add(says);
+            });
+        }
     };
     choice(
         ui,
@@ -63,7 +76,9 @@ pub(super) fn show(ui: &mut Ui, session: &Session, begin: &mut Begin, asked: &mu
         Start::Reduced(begin.reduce),
     );
     ui.horizontal(|ui| {
-        ui.add_space(210.0 + 2.0 * GAP);
+        if ui.available_width() >= BESIDE {
+            ui.add_space(210.0 + 2.0 * GAP);
+        }
         let config = &mut begin.reduce;
         ui.add(
             DragValue::new(&mut config.angle_deg)
