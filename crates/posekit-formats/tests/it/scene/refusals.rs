@@ -113,8 +113,8 @@ fn problems_have_a_place() {
         "at = 0.75",
         "at = 0.25",
         Kind::Inconsistent,
-        35,
-        "track[1].keys",
+        38,
+        "track[1].keys[2]",
         "key 2",
     );
     assert_refused(
