@@ -36,7 +36,7 @@ fn options_refuse_rates_and_times_beyond_the_range() {
             assert!(ran.stderr.contains("outside 1e-9 to 1e9"), "{}", ran.stderr);
         }
         let args = ["render", "arm.bvh", "-o", "out.gif", "--fps", rate];
-        assert!(folder.fail(2, &args).contains("from 1e-9 up to 50"));
+        assert!(folder.fail(2, &args).contains("from 1e-9 to 50"));
     }
     assert!(!folder.exists("out.bvh") && !folder.exists("out.gif"));
 }

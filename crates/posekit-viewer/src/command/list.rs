@@ -17,7 +17,17 @@ pub struct Line {
 }
 
 /// Keys that are in no table: they are about what is held, open or typed into just then.
-const HELD: [(&[&str], Group, &str); 12] = [
+const HELD: [(&[&str], Group, &str); 14] = [
+    (
+        &["X", "Y", "Z"],
+        Group::Edit,
+        "While something is in hand: along or about this axis alone, or freely again",
+    ),
+    (
+        &["Enter"],
+        Group::Edit,
+        "While something is in hand: keep it there",
+    ),
     (
         &["Esc"],
         Group::Edit,
