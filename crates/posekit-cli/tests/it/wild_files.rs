@@ -323,6 +323,9 @@ fn values_that_are_no_numbers_are_found_and_bridged() {
         .filter(|it| it["code"] == "not-finite")
         .collect();
     assert_eq!(lost.len(), 2, "{found:?}");
+    // What is not a number is not out of range as well.
+    let is_too_large = |it: &Value| it["code"] == "value-out-of-range";
+    assert!(!found.iter().any(is_too_large), "{found:?}");
     assert_eq!(lost[0]["joints"], serde_json::json!(["base"]));
     assert_eq!(
         lost[0]["frames"],

@@ -87,7 +87,9 @@ pub fn check_with_gaps(
     beyond.remove_from(&mut whole);
     // What cannot be bridged at all stays 0.
     let _ = bridge_gaps(&mut whole, &bridged, usize::MAX);
-    beyond.add_to(&mut entries, bvh);
+    if !beyond.is_none() {
+        beyond.add_to(&mut entries, bvh);
+    }
     check_whole(&whole, entries, policies, config, found)
 }
 

@@ -1,7 +1,7 @@
 //! The text of a clip's file: its lines, and where in them that stands which is seen.
 //!
 //! The bytes are those that the clip was read from, shared with it. Nothing here copies them: an index
-//! has the place of every [`STRIDE`]th line, and of each frame's row.
+//! has the place of every few lines, and of each frame's row.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -22,7 +22,7 @@ const COUNTED: usize = 1 << 16;
 #[derive(Clone, Debug)]
 pub struct FileText {
     bytes: Arc<Vec<u8>>,
-    /// Where every [`STRIDE`]th line begins.
+    /// Where every few lines begins.
     starts: Vec<usize>,
     line_count: usize,
     /// The longest line, in bytes.
