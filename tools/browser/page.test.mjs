@@ -30,11 +30,11 @@ const OFF = 3;
 /** Where the camera is when it looks from the front: degrees about the figure and above the horizon. */
 const FROM_THE_FRONT = "0 3";
 
-/** Where the buttons of listed files are, and the third of them when another clip is open. */
-const LISTED = { download: 232, text: 206, third: 343 };
+/** Where the buttons of listed files are, and the second of them when another clip is open. */
+const LISTED = { download: 232, text: 206, second: 289 };
 
-/** The last clip of the server's folder, when another one of it is open. */
-const LAST_CLIP = [130, 289];
+/** The one listed clip that is in no further folder, when another one is open. */
+const LISTED_CLIP = [130, 235];
 
 const GOLDEN = fileURLToPath(new URL("golden/wave_front.png", import.meta.url));
 
@@ -96,7 +96,7 @@ for (const browser of BROWSERS) {
       const walk = `${site.address}?url=${encodeURIComponent("clips/a walk.bvh")}`;
       await desk.goto(walk);
       const walking = await atStartFromTheFront(desk, "a walk.bvh");
-      await desk.page.mouse.click(...LAST_CLIP);
+      await desk.page.mouse.click(...LISTED_CLIP);
       const clicked = await atStartFromTheFront(desk, "wave.bvh");
       await desk.show("clicked");
       await desk.goto(walk);
@@ -240,7 +240,7 @@ test("a listed file is saved as it is, and its text shown beside the figure", { 
     desk = await Desk.open(chromium, `${own.address}?url=clips/wave.bvh`);
     const complete = await desk.saveInto(folder);
     await desk.pauseAtStart();
-    await desk.page.mouse.click(LISTED.download, LISTED.third);
+    await desk.page.mouse.click(LISTED.download, LISTED.second);
     await desk.until("the file in the downloads", () => complete() === 1);
     const saved = readdirSync(folder);
     assert.equal(saved.length, 1);
@@ -248,10 +248,10 @@ test("a listed file is saved as it is, and its text shown beside the figure", { 
     assert.equal(saved[0].replaceAll("_", '"'), name);
     assert.deepEqual(readFileSync(join(folder, saved[0])), bytes, "every byte");
 
-    await desk.page.mouse.move(LISTED.download - 60, LISTED.third);
+    await desk.page.mouse.move(LISTED.download - 60, LISTED.second);
     await desk.settled(() => desk.whole());
     await desk.show("listed");
-    await desk.page.mouse.click(LISTED.text, LISTED.third);
+    await desk.page.mouse.click(LISTED.text, LISTED.second);
     await desk.becomes({ clip: name, working: false });
     const lines = bytes.toString("latin1").split("\r\n");
     const first = lines.findIndex((line) => line.startsWith("Frame Time")) + 2;

@@ -1,6 +1,6 @@
 //! The library: the clips of a folder that are not open, and the filter over everything listed.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// A file of the folder.
@@ -86,18 +86,24 @@ impl<T> Library<T> {
         self.folder = Some(folder);
     }
 
-    /// The files that pass the filter and a test, folder by folder, in their order.
+    /// The files that pass the filter and a test, in their order: first those that lie in no further folder, then
+    /// folder by folder.
     pub fn groups(&self, is_listed: impl Fn(&Entry<T>) -> bool) -> Vec<(&str, Vec<&Entry<T>>)> {
-        let mut groups: Vec<(&str, Vec<&Entry<T>>)> = Vec::new();
+        let mut groups: Vec<(&str, Vec<&Entry<T>>)> = vec![("", Vec::new())];
+        let mut place_of = BTreeMap::from([("", 0)]);
         for entry in self.entries.iter().filter(|entry| is_listed(entry)) {
             let whole = format!("{}/{}", entry.group, entry.name);
             if !self.passes(&whole) {
                 continue;
             }
-            match groups.iter_mut().find(|group| group.0 == entry.group) {
-                Some(group) => group.1.push(entry),
-                None => groups.push((&entry.group, vec![entry])),
-            }
+            let place = *place_of.entry(&entry.group).or_insert_with(|| {
+                groups.push((&entry.group, Vec::new()));
+                groups.len() - 1
+            });
+            groups[place].1.push(entry);
+        }
+        if groups[0].1.is_empty() {
+            groups.remove(0);
         }
         groups
     }
@@ -271,10 +277,14 @@ mod tests {
         library.filter.clear();
         library.toggle("a");
         assert!(library.is_open("a"));
-        // A server's names say folders, too.
-        let files = vec![(PathBuf::from("clips/d/e.bvh"), "d/e.bvh".to_owned())];
-        library.list_named("server".into(), files);
-        assert_eq!(groups(&library), [group("d", &["e.bvh"])]);
+        // A server's names say folders, too, and come in any order.
+        let files = ["d/e.bvh", "f.bvh", "d/g.bvh"];
+        let files = files.map(|name| (PathBuf::from(format!("clips/{name}")), name.to_owned()));
+        library.list_named("server".into(), files.to_vec());
+        let all = [group("", &["f.bvh"]), group("d", &["e.bvh", "g.bvh"])];
+        assert_eq!(groups(&library), all);
+        library.filter = "d/".to_owned();
+        assert_eq!(groups(&library), all[1..]);
     }
 
     #[test]
