@@ -198,10 +198,10 @@ export class Desk {
     return this.settled();
   }
 
-  /** Where messages come up: a strip along the top of the view. */
+  /** Where messages come up: a strip along the bottom of the view. */
   async messagePlace() {
-    const [left, top, right] = (await this.state()).viewPlace.split(" ").map(Number);
-    return { x: left + 20, y: top, width: right - left - 40, height: 80 };
+    const [left, , right, bottom] = (await this.state()).viewPlace.split(" ").map(Number);
+    return { x: left + 20, y: bottom - 130, width: right - left - 40, height: 130 };
   }
 
   /**
