@@ -23,8 +23,8 @@ async function check() {
 }
 
 /// Fetches the module, telling how far it is. It is compiled as it comes.
-async function fetchModule(signal) {
-  const response = await fetch(MODULE.file, { signal });
+async function fetchModule() {
+  const response = await fetch(MODULE.file);
   if (!response.ok) throw new Error(`${MODULE.file}: the server answered ${response.status}`);
   let done = 0;
   const counted = response.body.pipeThrough(new TransformStream({
@@ -74,14 +74,13 @@ async function fetchList() {
 /// Nothing, after a while.
 const nothingAfter = (ms) => new Promise((done) => setTimeout(done, ms, null));
 
-const fetching = new AbortController();
 try {
-  // All at once: none of them waits for another.
-  const module = fetchModule(fetching.signal);
+  // A browser that cannot draw fetches nothing; what is fetched comes all at once, none waiting for another.
+  await check();
+  const module = fetchModule();
   module.catch(() => {});
   const list = fetchList().catch(() => null);
   const viewer = import("./posekit_viewer.js?v=__VERSION__");
-  await check();
   const { default: init, start } = await viewer;
   await init({ module_or_path: module });
   message.textContent = "Starting\u2026";
@@ -92,7 +91,6 @@ try {
   cover.hidden = true;
   document.getElementById("view").focus();
 } catch (error) {
-  fetching.abort();
   if (error instanceof Unfit) {
     tell(error.message);
   } else {

@@ -79,7 +79,7 @@ pub fn search(ui: &mut Ui, filter: &mut String, hint: &str) -> egui::Response {
     let palette = Palette::in_ui(ui);
     let edit = egui::TextEdit::singleline(filter)
         .hint_text(RichText::new(hint).color(palette.quiet))
-        .vertical_align(egui::Align::Center)
+        .align(egui::Align2::LEFT_CENTER)
         .desired_width(f32::INFINITY)
         .margin(egui::Margin {
             left: 28,
