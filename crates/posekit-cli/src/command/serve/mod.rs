@@ -62,22 +62,22 @@ pub(crate) struct ServeArgs {
     limits: Limits,
 }
 
-/// What the server bears. Nobody needs to change these; the tests do.
+/// Limits of the server. Nobody needs to change these except tests.
 #[derive(Debug, Args)]
 struct Limits {
-    /// Clips beyond this many are not listed
+    /// List at most this many clips
     #[arg(long, hide = true, value_name = "N", default_value_t = 20_000)]
     most_clips: usize,
-    /// The search for clips ends after this many names
+    /// Stop looking for clips after this many names
     #[arg(long, hide = true, value_name = "N", default_value_t = 1_000_000)]
     most_names: usize,
-    /// A list of clips is good for this long
+    /// How long a list of clips stays current
     #[arg(long, hide = true, value_name = "SECS", default_value = "1", value_parser = seconds)]
     list_time: Duration,
-    /// More connections than this are not open at a time
+    /// Most connections open at a time
     #[arg(long, hide = true, value_name = "N", default_value_t = 256)]
     most_connections: usize,
-    /// Who takes nothing of an answer for this long is hung up on
+    /// Drop clients that read nothing for this long
     #[arg(long, hide = true, value_name = "SECS", default_value = "30", value_parser = seconds)]
     stall_time: Duration,
 }
