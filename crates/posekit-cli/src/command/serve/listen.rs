@@ -27,7 +27,7 @@ use super::watched::Watched;
 
 /// A request's head is a few hundred bytes; more than this is refused.
 const MOST_HEAD_BYTES: usize = 16 * 1024;
-/// Who has not said what is wanted after this long is hung up on.
+/// A client that has not sent its request after this long is dropped.
 const HEAD_TIME: Duration = Duration::from_secs(10);
 /// This much is handed to the system ahead of who reads. It takes more when a third of it was taken, and
 /// one who reads more slowly than that in the time for a stall is hung up on: 3 kB a second.
@@ -52,7 +52,7 @@ pub(super) struct Site {
     pub(super) policy: Policy,
     /// More connections than this are not open at a time.
     pub(super) most_connections: usize,
-    /// Who takes nothing of an answer for this long is hung up on.
+    /// A client that reads nothing for this long is dropped.
     pub(super) stall_time: Duration,
 }
 

@@ -1,4 +1,4 @@
-//! A connection's bytes, watched: who takes nothing of what is sent is hung up on.
+//! A connection's bytes, watched: a client that stops reading is dropped.
 
 use std::io;
 use std::pin::Pin;
