@@ -7,6 +7,7 @@ use std::path::Path;
 
 use crate::failure::Failure;
 use crate::output::Guard;
+use posekit_formats::memory::prefer_large_pages;
 
 /// The most that is read of a file: an hour of a hundred joints at 120 frames a second, in text, is less than half
 /// of it.
@@ -76,6 +77,7 @@ fn read_up_to(from: impl Read, length: Option<u64>, most: u64) -> io::Result<Opt
     let mut bytes = Vec::new();
     let expected = length.and_then(|length| usize::try_from(length).ok());
     bytes.try_reserve_exact(expected.unwrap_or(0))?;
+    prefer_large_pages(&mut bytes);
     from.take(most + 1).read_to_end(&mut bytes)?;
     Ok((bytes.len() as u64 <= most).then_some(bytes))
 }

@@ -103,8 +103,8 @@ fn measure(what: &str, bytes: &[u8]) {
         black_box(read(black_box(bytes), RowParser::Careful));
     });
     for threads in [1, 2, 4] {
-        table.job(
-            format!("posekit, in pieces on {threads} threads"),
+        table.threaded_job(
+            format!("posekit, in pieces on {threads} threads, wall clock"),
             size,
             move || {
                 black_box(read_in_pieces(black_box(bytes), threads));

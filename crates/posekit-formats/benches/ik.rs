@@ -97,6 +97,7 @@ fn loops(skeleton: &Skeleton) {
         .map(|pair| pair[0].distance(pair[1]))
         .sum();
     let mut lengths = vec![0.0; points.len() - 1];
+    add_peer(&mut table, &points, reach);
     let mut moving = points.clone();
     table.reference("FABRIK on points to 1e-4 of reach", 1, move || {
         moving.copy_from_slice(&points);
@@ -142,6 +143,28 @@ fn loops(skeleton: &Skeleton) {
         ccd,
     );
     table.measure(time_asked());
+}
+
+/// Adds the crate `rebirth-ik` 0.1 on the same points, in its `f32`, with the bones' lengths measured beforehand.
+fn add_peer(table: &mut Table<'_>, points: &[DVec3], reach: f64) {
+    let narrow = |v: DVec3| {
+        let v = v.as_vec3();
+        rebirth_ik::Vec3::new(v.x, v.y, v.z)
+    };
+    let points: Vec<rebirth_ik::Vec3> = points.iter().copied().map(narrow).collect();
+    let mut lengths = vec![0.0; points.len() - 1];
+    rebirth_ik::segment_lengths(&points, &mut lengths);
+    let mut moving = points.clone();
+    table.reference("rebirth-ik on points to 1e-4 of reach, f32", 1, move || {
+        moving.copy_from_slice(&points);
+        black_box(rebirth_ik::solve_chain(
+            &mut moving,
+            &lengths,
+            narrow(black_box(TARGET)),
+            100,
+            (1e-4 * reach) as f32,
+        ));
+    });
 }
 
 fn closed_forms(skeleton: &Skeleton) {

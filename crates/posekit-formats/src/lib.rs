@@ -9,6 +9,7 @@ pub mod bvh;
 pub mod csv;
 pub mod gltf;
 pub mod json;
+pub mod memory;
 pub mod npz;
 mod number_text;
 pub mod poses;

@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use crate::bvh_real_files::{bits, files};
 use crate::bvh_text::with_rows;
 use posekit_formats::bvh::{self, Bvh, Piece, ReadOptions, RowParser};
-use posekit_formats::report::{Import, ReadError};
+use posekit_formats::report::{Import, ReadError, WarningCode};
 use proptest::prelude::*;
 
 fn read(bytes: &[u8], row_parser: RowParser) -> Result<Import<Bvh>, ReadError> {
@@ -171,6 +171,25 @@ proptest! {
     #[test]
     fn on_odd_rows(rows in rows(odd_piece()), frames in 0..160_usize) {
         let _ = agreed(with_rows(frames, &rows).as_bytes());
+    }
+
+    /// A value beyond the range is found wherever it stands, though the values are looked at while they come.
+    #[test]
+    fn on_a_value_beyond_the_range(
+        at in 0..8000_usize,
+        frames in 1500..2000_usize,
+        value in prop::sample::select(vec!["1e13", "-1000000000001", "2000000000000.5", "1e300"]),
+    ) {
+        let at = at % (4 * frames);
+        let mut words = vec!["0.25"; 4 * frames];
+        words[at] = value;
+        let rows: String = words.chunks(4).map(|row| row.join(" ") + "\n").collect();
+        let import = agreed(with_rows(frames, &rows).as_bytes()).unwrap();
+        let codes: Vec<WarningCode> = import.report.warnings.iter().map(|it| it.code).collect();
+        prop_assert_eq!(codes, [WarningCode::ValueOutOfRange]);
+        let gaps = import.document.values_out_of_range();
+        let gaps: Vec<_> = gaps.iter().map(|gap| (gap.frame, gap.column)).collect();
+        prop_assert_eq!(gaps, [(at / 4, at % 4)]);
     }
 
     /// Bytes of a sound file are changed, taken out and put in.

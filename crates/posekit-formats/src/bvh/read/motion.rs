@@ -67,7 +67,7 @@ pub(super) fn read(
         walk.rows.restart(Lines::Kept);
         walk.read(scanner)?;
     }
-    if has_out_of_range(&walk.rows.values) {
+    if walk.rows.has_out_of_range() {
         // Once more, with the place of each: that takes time, and is hardly ever needed.
         (scanner.pos, scanner.comma, scanner.reporter) = before;
         walk.parser = RowParser::Careful;
@@ -86,18 +86,6 @@ pub(super) fn read(
         frame_time_secs,
         frame_count: values.len() / channel_count,
         values,
-    })
-}
-
-/// Whether there is a value that no motion is made of. One that is no number is a gap.
-fn has_out_of_range(values: &[f64]) -> bool {
-    /// Values that are looked at together, without a branch between them.
-    const TOGETHER: usize = 1024;
-    let is_beyond = |value: &f64| value.abs() > LONGEST_LENGTH;
-    values.chunks(TOGETHER).any(|chunk| {
-        chunk
-            .iter()
-            .fold(false, |any, value| any | is_beyond(value))
     })
 }
 

@@ -11,6 +11,7 @@ use super::RowParser;
 use super::motion::RowWalk;
 use super::rows::{Lines, Rows};
 use super::scan::{Comma, Scanner};
+use crate::memory::prefer_large_pages;
 
 /// A good size for pieces, in bytes: its text and its values stay in a core's own cache.
 pub const PIECE_BYTES: usize = 1 << 18;
@@ -68,8 +69,9 @@ impl Piece<'_> {
             progress: &mut |_| ControlFlow::Continue(()),
         };
         walk.read(&mut scanner).ok()?;
-        let rows = &walk.rows;
+        let rows = &mut walk.rows;
         let is_plain = scanner.comma == self.comma
+            && !rows.has_out_of_range()
             && rows.are_all_whole_lines()
             && rows.values.len() == self.values.len();
         if !is_plain || !scanner.finish().is_empty() {
@@ -99,6 +101,7 @@ pub(super) fn read(
     // Room for what follows, so that a last row does not have all the others moved.
     let room = ((scanner.bytes.len() - ends_at) / 2 + 1).min(channel_count);
     let mut values = vec![0.0; counted + room];
+    prefer_large_pages(&mut values);
     let mut left = values.as_mut_slice();
     for (piece, &count) in pieces.iter_mut().zip(&counts) {
         let (own, others) = left.split_at_mut(count);

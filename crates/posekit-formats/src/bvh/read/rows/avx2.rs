@@ -12,6 +12,7 @@
 )]
 
 use std::arch::x86_64::*;
+use std::mem::MaybeUninit;
 
 #[path = "avx2_number.rs"]
 mod number;
@@ -100,6 +101,7 @@ fn walk(rows: &mut Rows, bytes: &[u8], mut pos: usize, limit: usize) -> usize {
         } else {
             convert::<false>(rows, bytes, pos, &index)
         };
+        rows.note_range();
         match converted {
             Ok(next) if next > pos => pos = next,
             Ok(stopped) | Err(stopped) => return stopped,
@@ -269,23 +271,56 @@ fn convert_tokens<const EXPONENTS: bool>(
     base: usize,
     bounds: &[u16],
 ) -> Result<(), usize> {
-    let (fours, rest) = bounds.as_chunks::<2>().0.as_chunks::<4>();
-    for tokens in fours {
-        match number::four::<EXPONENTS>(bytes, base, tokens) {
-            Some(values) => rows.values.extend_from_slice(&values),
-            None => convert_singly(rows, bytes, base, tokens)?,
+    let (mut fours, rest) = bounds.as_chunks::<2>().0.as_chunks::<4>();
+    loop {
+        let length = rows.values.len();
+        let room = rows.values.spare_capacity_mut().as_chunks_mut::<4>().0;
+        let done = convert_fours::<EXPONENTS>(room, bytes, base, fours);
+        // SAFETY: the first `done` fours of the room were written, one after the other.
+        unsafe { rows.values.set_len(length + 4 * done) };
+        match fours[done..].split_first() {
+            Some((tokens, others)) => {
+                convert_singly(rows, bytes, base, tokens)?;
+                fours = others;
+            }
+            None => break,
         }
     }
     let Some(last) = rest.last() else {
         return Ok(());
     };
-    let mut padded = [*last; 4];
-    padded[..rest.len()].copy_from_slice(rest);
-    match number::four::<EXPONENTS>(bytes, base, &padded) {
-        Some(values) => rows.values.extend_from_slice(&values[..rest.len()]),
-        None => convert_singly(rows, bytes, base, rest)?,
+    let mut padded = [[*last; 4]];
+    padded[0][..rest.len()].copy_from_slice(rest);
+    let mut values = [[MaybeUninit::uninit(); 4]];
+    if convert_fours::<EXPONENTS>(&mut values, bytes, base, &padded) == 1 {
+        // SAFETY: its one four was written.
+        let values = values[0].map(|value| unsafe { value.assume_init() });
+        rows.values.extend_from_slice(&values[..rest.len()]);
+        return Ok(());
     }
-    Ok(())
+    convert_singly(rows, bytes, base, rest)
+}
+
+/// Converts tokens four by four into as much room, up to the first four that are not plain, and says how many fours
+/// that were.
+#[inline(never)]
+#[target_feature(enable = "avx2,bmi1,bmi2,popcnt")]
+fn convert_fours<const EXPONENTS: bool>(
+    room: &mut [[MaybeUninit<f64>; 4]],
+    bytes: &[u8],
+    base: usize,
+    fours: &[[[u16; 2]; 4]],
+) -> usize {
+    let mut done = 0;
+    for (tokens, place) in fours.iter().zip(room) {
+        // Called from here alone, so that it is built in.
+        let Some(four) = number::four::<EXPONENTS>(bytes, base, tokens) else {
+            break;
+        };
+        *place = four.map(MaybeUninit::new);
+        done += 1;
+    }
+    done
 }
 
 /// As [`convert_tokens`], by the portable parser.

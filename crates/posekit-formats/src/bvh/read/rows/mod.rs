@@ -11,6 +11,8 @@ mod wide_lanes;
 
 use super::RowParser;
 use super::scan::Comma;
+use crate::memory::prefer_large_pages;
+use posekit::range::LONGEST_LENGTH;
 
 /// What line ends mean.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,6 +53,9 @@ pub(super) struct Rows {
     pub(super) damaged_at: Vec<usize>,
     /// Where rows begin, if that is wanted.
     starts: Option<Starts>,
+    /// How many values have been looked at, and whether one of them was beyond the range of motions.
+    ranged: usize,
+    is_out_of_range: bool,
     /// How many tokens the wide parser still lets pass before it tries again.
     #[cfg(target_arch = "x86_64")]
     patience: u32,
@@ -58,8 +63,10 @@ pub(super) struct Rows {
 
 impl Rows {
     pub(super) fn new(channel_count: usize, values_expected: usize, lines: Lines) -> Self {
+        let mut values = Vec::with_capacity(values_expected);
+        prefer_large_pages(&mut values);
         Self {
-            values: Vec::with_capacity(values_expected),
+            values,
             channel_count,
             lines,
             line_start: 0,
@@ -71,14 +78,17 @@ impl Rows {
             out_of_step: false,
             damaged_at: Vec::new(),
             starts: None,
+            ranged: 0,
+            is_out_of_range: false,
             #[cfg(target_arch = "x86_64")]
             patience: 0,
         }
     }
 
-    /// Rows of which every line had the values of one: as reading them leaves it.
+    /// Rows of which every line had the values of one, all within the range: as reading them leaves it.
     pub(super) fn of_whole_lines(channel_count: usize, values: Vec<f64>) -> Self {
         Self {
+            ranged: values.len(),
             line_start: values.len(),
             in_step: values.len(),
             whole_lines: values.len() / channel_count,
@@ -147,12 +157,30 @@ impl Rows {
         self.push(value, bytes_left);
     }
 
+    /// Looks at the values that have come since it was last called: while they are still in the core's own cache that
+    /// costs next to nothing, and a walk over all of them at the end would cost a twelfth of reading them.
+    #[inline(always)]
+    fn note_range(&mut self) {
+        let new = &self.values[self.ranged..];
+        self.is_out_of_range |= new
+            .iter()
+            .fold(false, |any, value| any | (value.abs() > LONGEST_LENGTH));
+        self.ranged = self.values.len();
+    }
+
+    /// Whether there is a value that no motion is made of. One that is not a number is a gap.
+    pub(super) fn has_out_of_range(&mut self) -> bool {
+        self.note_range();
+        self.is_out_of_range
+    }
+
     /// Makes room. Beyond what the header promised, room grows by an eighth at a time, and never beyond
     /// what the rest of the file could hold, so that memory stays in proportion.
     pub(super) fn reserve(&mut self, additional: usize, bytes_left: usize) {
         if self.values.capacity() - self.values.len() < additional {
             let growth = (self.values.len() / 8 + 1024).min(bytes_left / 2 + 1);
             self.values.reserve_exact(growth.max(additional));
+            prefer_large_pages(&mut self.values);
         }
     }
 
@@ -162,7 +190,9 @@ impl Rows {
         if in_line == self.channel_count {
             let hanging = self.line_start % self.channel_count;
             if hanging > 0 && self.lines == Lines::Kept {
+                self.note_range();
                 self.values.drain(self.in_step..self.line_start);
+                self.ranged = self.values.len();
                 if let Some(starts) = &mut self.starts {
                     starts.of_rows.truncate(self.in_step / self.channel_count);
                     starts.of_rows.extend(starts.of_line);
@@ -186,6 +216,9 @@ impl Rows {
     }
 }
 
+/// About how many values are looked at together for their range.
+const RANGED_TOGETHER: usize = 1024;
+
 /// Reads plain numbers from `pos` on, until about `limit`, the end, or a token that is not plain. Gives
 /// the position it stopped at, which is before a token or among blanks.
 pub(super) fn read_plain(
@@ -201,7 +234,11 @@ pub(super) fn read_plain(
         RowParser::Portable => pos,
         RowParser::Fastest => wide_lanes::read_plain(rows, bytes, pos, limit, comma),
     };
-    portable::read_plain(rows, bytes, pos, limit, comma)
+    let pos = portable::read_plain(rows, bytes, pos, limit, comma);
+    if rows.values.len() - rows.ranged >= RANGED_TOGETHER {
+        rows.note_range();
+    }
+    pos
 }
 
 #[cfg(not(target_arch = "x86_64"))]

@@ -25,6 +25,7 @@ pub(super) fn read_plain(
             b' ' | b'\t' => pos += 1,
             b'\n' => {
                 rows.end_line(pos);
+                rows.note_range();
                 pos += 1;
             }
             b'\r' if bytes[pos + 1] == b'\n' => pos += 1,
