@@ -23,6 +23,19 @@ pub(crate) const WAYS: usize = 6;
 /// Opposite directions are half a turn apart about [`perpendicular`] of `a`.
 #[inline]
 pub(crate) fn shortest_turn(a: DVec3, b: DVec3) -> Option<DQuat> {
+    shortest_turn_or(a, b, || DQuat::from_vec4(perpendicular(a).extend(0.0)))
+}
+
+/// [`shortest_turn`] for loops in which each turn waits for the one before: a call for each joint makes CCD half as slow
+/// again.
+#[inline(always)]
+pub(crate) fn shortest_turn_inline(a: DVec3, b: DVec3) -> Option<DQuat> {
+    shortest_turn_or(a, b, || half_turn_across(a))
+}
+
+/// The shortest turn, where the directions are opposite that of `half_turn`.
+#[inline(always)]
+fn shortest_turn_or(a: DVec3, b: DVec3, half_turn: impl FnOnce() -> DQuat) -> Option<DQuat> {
     let size_sq = a.length_squared() * b.length_squared();
     // Not `<`: products that overflowed to NaN have no direction either.
     if !(size_sq > SHORTEST_SQ && size_sq < f64::INFINITY) {
@@ -32,11 +45,18 @@ pub(crate) fn shortest_turn(a: DVec3, b: DVec3) -> Option<DQuat> {
     // Half-angle form: the vector part sin(angle) and the scalar part 1 + cos(angle), of one length.
     let scalar = size + a.dot(b);
     if scalar <= OPPOSITE * size {
-        return Some(DQuat::from_vec4(perpendicular(a).extend(0.0)));
+        return Some(half_turn());
     }
     let vector = a.cross(b);
     let norm = (vector.length_squared() + scalar * scalar).sqrt();
     Some(DQuat::from_vec4(vector.extend(scalar) * (1.0 / norm)))
+}
+
+/// Half a turn about [`perpendicular`] of `v`.
+#[cold]
+#[inline(never)]
+fn half_turn_across(v: DVec3) -> DQuat {
+    DQuat::from_vec4(perpendicular(v).extend(0.0))
 }
 
 /// Turns and rolls this near to half a turn (one plus the cosine), and vectors this near to the line (the sine), are left

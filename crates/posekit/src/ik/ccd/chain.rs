@@ -9,7 +9,7 @@ use super::{AT_REST, MOST_NUDGES, Scratch, SweepOrder, nudges};
 use crate::ik::linkage::{Linkage, State};
 use crate::ik::problem::IkProblem;
 use crate::ik::solve::{Progress, is_short};
-use crate::ik::turn::shortest_turn;
+use crate::ik::turn::shortest_turn_inline;
 
 /// Runs the loop on a chain.
 pub(super) fn run(
@@ -117,7 +117,7 @@ fn sweep(
 #[inline(always)]
 fn turn(pivot: DVec3, effector: DVec3, target: DVec3) -> Option<(DQuat, DVec3)> {
     let (a, b) = (effector - pivot, target - pivot);
-    let turn = shortest_turn(a, b)?;
+    let turn = shortest_turn_inline(a, b)?;
     let share = (a.length_squared() / b.length_squared()).sqrt();
     Some((turn, pivot + b * share))
 }

@@ -7,7 +7,7 @@ use super::{Figure, Scratch};
 use crate::ik::linkage::{Linkage, NONE};
 use crate::ik::solve::{Progress, rest_distance};
 use crate::ik::trace::TraceIteration;
-use crate::ik::turn::{perpendicular, shortest_turn};
+use crate::ik::turn::{perpendicular, shortest_turn_inline};
 
 /// By how much the points of a chain are bent that stands still, as a share of its reach: in this order until
 /// an iteration from there comes nearer than the chain stood.
@@ -226,7 +226,7 @@ fn recover(linkage: &mut Linkage, points: &[DVec3]) {
         let carried = inner * offset;
         // Towards the point itself rather than along the difference of two points: rounding does not
         // add up along the chain.
-        if let Some(turn) = shortest_turn(carried, points[k + 1] - position) {
+        if let Some(turn) = shortest_turn_inline(carried, points[k + 1] - position) {
             inner = turn * inner;
         }
         linkage.turns[k] = inner;
