@@ -162,3 +162,8 @@ pub(crate) fn real_data() -> Option<PathBuf> {
     }
     Some(folder.canonicalize().unwrap())
 }
+
+/// A text as JSON, shown where it is not.
+pub(crate) fn json(text: &str) -> serde_json::Value {
+    serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"))
+}

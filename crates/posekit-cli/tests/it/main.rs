@@ -19,6 +19,7 @@ mod gltf_scenes;
 mod guard;
 mod harness;
 mod ik;
+mod ik_figures;
 mod ik_study;
 mod info;
 #[path = "../../../posekit-render/tests/it/inside.rs"]

@@ -34,6 +34,7 @@ mod property;
 mod reduce;
 mod sampler;
 mod track;
+mod track_error;
 mod value;
 
 pub use animation::{Animation, BakeConfig};
@@ -47,5 +48,6 @@ pub use reduce::{
     Reduction, reduce,
 };
 pub use sampler::PoseSampler;
-pub use track::{Track, TrackError, angular_velocity_of_tangent, tangent_of_angular_velocity};
+pub use track::{Track, angular_velocity_of_tangent, tangent_of_angular_velocity};
+pub use track_error::TrackError;
 pub use value::KeyValue;
