@@ -17,7 +17,8 @@ use glam::{DQuat, DVec3};
 use super::euler::{EulerTrack, angles_near_deg, quat_of_deg};
 use super::extrapolation::Extrapolation;
 use super::key::{Interpolation, Keyframe, Tangents};
-use super::track::{Track, TrackError};
+use super::track::Track;
+use super::track_error::TrackError;
 use super::value::KeyValue;
 use crate::rotation::{EulerOrder, angle_between};
 

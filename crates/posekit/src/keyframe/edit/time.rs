@@ -1,7 +1,8 @@
 //! Keys of one track: put in, moved, scaled, copied, pasted, taken out.
 
 use crate::keyframe::key::{Interpolation, Keyframe, Tangents};
-use crate::keyframe::track::{Track, TrackError};
+use crate::keyframe::track::Track;
+use crate::keyframe::track_error::TrackError;
 use crate::keyframe::value::KeyValue;
 
 /// Keys this close to each other are at one time: a tenth of a millisecond, far less than a frame of

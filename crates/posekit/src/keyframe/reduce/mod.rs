@@ -26,7 +26,8 @@ use glam::{DQuat, DVec3};
 
 use super::animation::Animation;
 use super::key::Interpolation;
-use super::track::{Track, TrackError};
+use super::track::Track;
+use super::track_error::TrackError;
 use crate::motion::Motion;
 use crate::range::{LONGEST_LENGTH, LONGEST_SECS, are_lengths};
 use crate::skeleton::JointId;
