@@ -168,7 +168,7 @@ impl OutOfRange {
             unit: Unit::Occurrences,
             share_of_height: None,
             message: format!(
-                "{count} values of {whose}{at} are not within {LONGEST_LENGTH:e}: no motion can be made of them"
+                "{count} values of {whose}{at} are not within {LONGEST_LENGTH:e}, too large for a motion"
             ),
         });
     }
