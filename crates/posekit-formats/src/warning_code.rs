@@ -125,7 +125,7 @@ warning_codes! {
     UnknownShape, "unknown-shape", Warning;
     /// A buffer of numbers is missing; its contents were left out.
     MissingBuffer, "missing-buffer", Warning;
-    /// A glTF file has another skin with joints that the first has not; they were left out.
+    /// A glTF file has another skin with joints that the first one lacks; they were left out.
     OtherSkin, "other-skin", Note;
     /// A glTF node has no name; it is called by its number.
     UnnamedNode, "unnamed-node", Note;
