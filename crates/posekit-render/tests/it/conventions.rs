@@ -4,7 +4,9 @@ use std::fs::File;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use posekit::skeleton::JointId;
 use posekit_render::camera::View;
+use posekit_render::character::{Proportions, body_mesh};
 use posekit_render::cpu;
 use posekit_render::image::Image;
 use posekit_render::output::write_png;
@@ -13,7 +15,8 @@ use posekit_render::stage::{CameraChoice, Follow, StageOptions};
 
 use crate::figures::stage_of;
 use crate::inside::assert_fits;
-use figures::{CROUCHING, Convention, STANDING, STRIDING};
+use figures::Convention;
+use figures::figure::{CROUCHING, STANDING, STRIDING};
 
 #[path = "../../../posekit/tests/it/body/conventions/mod.rs"]
 #[allow(dead_code, reason = "the tests of the landmarks ask it for more")]
@@ -24,6 +27,41 @@ fn bones_of_every_convention_lie_inside_their_parts() {
     for convention in figures::all_conventions() {
         assert_fits(convention.label, &convention.motion());
     }
+}
+
+/// Targets for hands and feet that hang from the root beside the body, as Unreal has them, are no bones.
+#[test]
+fn what_hangs_beside_the_body_is_not_drawn() {
+    let conventions = figures::all_conventions();
+    let unreal = conventions.iter().find(|c| c.label == "Unreal").unwrap();
+    let motion = unreal.motion();
+    let mesh = body_mesh(motion.skeleton(), &Proportions::of(&motion));
+    for vertex in &mesh.vertices {
+        let name = motion.skeleton().name(JointId::new(vertex.joint as usize));
+        assert!(!name.starts_with("ik_") && name != "root", "{name}");
+    }
+}
+
+/// A depth camera's head is a point in the middle of the skull, not at its base.
+#[test]
+fn a_head_that_is_its_middle_sits_on_its_neck() {
+    let crown = |label: &str| {
+        let conventions = figures::all_conventions();
+        let convention = conventions.iter().find(|c| c.label == label).unwrap();
+        let motion = convention.motion();
+        let proportions = Proportions::of(&motion);
+        let mesh = body_mesh(motion.skeleton(), &proportions);
+        let head = motion.skeleton().find(convention.trunk()[2]).unwrap();
+        let highest = mesh
+            .vertices
+            .iter()
+            .filter(|vertex| vertex.joint as usize == head.index())
+            .map(|vertex| vertex.position.y)
+            .fold(0.0, f32::max);
+        highest / proportions.stature
+    };
+    assert!(crown("Kinect") < 0.07, "{}", crown("Kinect"));
+    assert!(crown("SMPL") > 0.11, "{}", crown("SMPL"));
 }
 
 /// To be looked at: with `POSEKIT_WRITE_CONVENTIONS=FOLDER` all conventions are drawn side by side,

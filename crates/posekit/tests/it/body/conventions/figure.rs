@@ -129,9 +129,14 @@ impl Convention {
         let skeleton: Arc<Skeleton> = Arc::new(builder.build().unwrap());
         let root = JointId::new(0);
         let mut motion = Motion::at_rest(skeleton, FRAMES, FrameTime::of_fps(10), [root]);
+        let ankles = [0, 1].map(|side| {
+            let [_, _, ankle, ..] = self.landmarks(side);
+            joints.iter().position(|joint| joint.name == ankle).unwrap()
+        });
         let lowest = |motion: &Motion, frame: usize| {
             let pose = motion.pose(frame).to_global(motion.skeleton());
-            pose.bounds().0.y
+            let height = ankles.map(|ankle| pose.positions[ankle].y);
+            height[0].min(height[1])
         };
         for frame in 0..FRAMES {
             motion.set_translation(frame, root, joints[0].offset);

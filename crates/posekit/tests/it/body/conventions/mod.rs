@@ -8,13 +8,11 @@
 
 mod capture;
 mod characters;
-mod figure;
+pub(crate) mod figure;
 mod games;
 mod posers;
 mod proportions;
 mod suits;
-
-pub(crate) use figure::{CROUCHING, STANDING, STRIDING};
 
 type Joint = (&'static str, [f32; 3]);
 
