@@ -83,7 +83,7 @@ fn a_trim_is_by_frame_or_by_time() {
     }
     let error = folder.fail(1, &["convert", "arm.bvh", "part.bvh", "--trim", "7..9"]);
     assert!(
-        error.contains("arm.bvh: frames 7..9 of 3 are none"),
+        error.contains("arm.bvh: there are no frames 7..9 among 3"),
         "{error}"
     );
 }

@@ -253,7 +253,7 @@ fn a_prefix_goes_and_names_of_end_sites_stay() {
         2,
         &["convert", &prefixed, "x.bvh", "--rename", "mixamorig:*=*_*"],
     );
-    assert!(error.contains("more stars"), "{error}");
+    assert!(error.contains("more asterisks"), "{error}");
     folder.succeed(&["convert", &named, "named.bvh"]);
     assert!(
         folder
