@@ -129,14 +129,15 @@ impl Convention {
         let skeleton: Arc<Skeleton> = Arc::new(builder.build().unwrap());
         let root = JointId::new(0);
         let mut motion = Motion::at_rest(skeleton, FRAMES, FrameTime::of_fps(10), [root]);
-        let ankles = [0, 1].map(|side| {
-            let [_, _, ankle, ..] = self.landmarks(side);
-            joints.iter().position(|joint| joint.name == ankle).unwrap()
-        });
+        let legs: Vec<usize> = [0, 1]
+            .into_iter()
+            .flat_map(|side| self.leg.iter().map(move |(name, _)| self.name(name, side)))
+            .filter_map(|name| joints.iter().position(|joint| joint.name == name))
+            .collect();
         let lowest = |motion: &Motion, frame: usize| {
             let pose = motion.pose(frame).to_global(motion.skeleton());
-            let height = ankles.map(|ankle| pose.positions[ankle].y);
-            height[0].min(height[1])
+            let heights = legs.iter().map(|&joint| pose.positions[joint].y);
+            heights.fold(f32::INFINITY, f32::min)
         };
         for frame in 0..FRAMES {
             motion.set_translation(frame, root, joints[0].offset);
