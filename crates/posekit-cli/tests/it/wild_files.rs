@@ -419,15 +419,3 @@ fn inverse_kinematics_works_without_offsets() {
     let report: Value = serde_json::from_str(ran.stdout.lines().next().unwrap()).unwrap();
     assert_eq!(report["reached"], true, "{report}");
 }
-
-/// Several values of one line are one line to look at.
-#[test]
-fn a_line_is_named_once() {
-    let folder = Folder::with_arm();
-    let large = "HIERARCHY\nROOT arm\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nEnd Site\n{\n\
-        OFFSET 0 1 0\n}\n}\nMOTION\nFrames: 2\nFrame Time: 0.04\n1e39 1e39 1e39\n1e39 1e39 0\n";
-    folder.write("large.bvh", large);
-    let ran = folder.run(&["check", "large.bvh"]);
-    let wanted = "(and 4 more like it, lines 14, 15)";
-    assert!(ran.stdout.contains(wanted), "{}", ran.stdout);
-}
