@@ -49,7 +49,7 @@ pub(crate) struct Global {
     /// No progress, notes or warnings; errors are still shown
     #[arg(long, short, global = true)]
     pub(crate) quiet: bool,
-    /// Take a file that needs repair as an error
+    /// Treat a file that needs repair as an error
     #[arg(long, global = true)]
     pub(crate) strict: bool,
     /// When output is coloured

@@ -61,11 +61,11 @@ fn read(from: impl Read, meta: Option<&Metadata>, path: &Path) -> Result<Vec<u8>
         let (name, most) = (path.display(), most >> 30);
         match length {
             Some(_) => Failure::new(format!(
-                "{name}: is larger than {most} GiB, the most that is read of a file"
+                "{name}: is larger than {most} GiB, the most that posekit reads from one file"
             ))
-            .try_next("cut it into parts"),
+            .try_next("split it into parts"),
             None => Failure::new(format!(
-                "{name}: no end after {most} GiB, the most that is read of what is not a file"
+                "{name}: no end after {most} GiB, the most that posekit reads from a pipe or a device"
             ))
             .try_next("save it as a file first"),
         }

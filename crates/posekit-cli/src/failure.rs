@@ -68,7 +68,7 @@ impl Failure {
         match error.kind() {
             io::ErrorKind::NotFound => Self::new(format!("{name}: no such file")),
             io::ErrorKind::PermissionDenied => {
-                Self::new(format!("{name}: not allowed to read this file"))
+                Self::new(format!("{name}: no permission to read this file"))
                     .try_next("check its permissions")
             }
             io::ErrorKind::IsADirectory => Self::new(format!("{name}: is a folder, not a file")),
@@ -83,7 +83,7 @@ impl Failure {
             io::ErrorKind::BrokenPipe => Self::ClosedPipe,
             io::ErrorKind::NotFound => Self::new(format!("{name}: its folder does not exist")),
             io::ErrorKind::PermissionDenied => {
-                Self::new(format!("{name}: not allowed to write here"))
+                Self::new(format!("{name}: no permission to write here"))
             }
             io::ErrorKind::StorageFull => Self::new(format!("{name}: the disk is full")),
             io::ErrorKind::NotADirectory => {
@@ -136,7 +136,7 @@ impl fmt::Display for Failure {
                     None => Ok(()),
                 }
             }
-            Self::ClosedPipe => f.write_str("the reader of our output went away"),
+            Self::ClosedPipe => f.write_str("the program that was reading the output stopped"),
         }
     }
 }

@@ -29,7 +29,7 @@ impl Loaded {
     pub(crate) fn motion(&self, policies: PositionPolicies) -> Result<Motion, Failure> {
         self.bvh.to_motion(policies).map_err(|error| {
             Failure::new(error.to_string())
-                .try_next("posekit check says where in the file such values stand")
+                .try_next("posekit check says where in the file these values are")
         })
     }
 

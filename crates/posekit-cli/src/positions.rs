@@ -8,11 +8,11 @@ use posekit::motion::{PositionPolicies, PositionPolicy};
 /// What position channels do with the OFFSET of their joint.
 #[derive(Clone, Copy, Debug, Default, Args)]
 pub(crate) struct PositionsArgs {
-    /// What position channels do with OFFSETs: replace, add or ignore; for roots and other joints apart as
+    /// What position channels do with OFFSETs: replace, add or ignore; for roots and other joints separately:
     /// root=add,others=ignore. 'ignore' alone leaves roots replaced [default: replace]
     #[arg(long, value_name = "HOW")]
     positions: Option<Positions>,
-    /// The same for roots alone, as it was once called
+    /// The same for roots alone; an older name
     #[arg(long, value_name = "HOW", hide = true, conflicts_with = "positions")]
     root_offset: Option<RootOffset>,
 }
@@ -98,7 +98,9 @@ fn policy(text: &str) -> Result<PositionPolicy, String> {
         "replace" => Ok(PositionPolicy::Replace),
         "add" => Ok(PositionPolicy::Add),
         "ignore" => Ok(PositionPolicy::Ignore),
-        _ => Err("it is replace, add or ignore, or root=add,others=ignore".to_owned()),
+        _ => Err(
+            "expected replace, add or ignore, or both, such as root=add,others=ignore".to_owned(),
+        ),
     }
 }
 

@@ -79,9 +79,9 @@ pub(crate) fn refuse_too_far(
     let frame = number_of(place);
     let name = motion.skeleton().unique_name(joint);
     let why = format!(
-        "the keys put joint '{name}' at frame {frame} farther away than {LONGEST_LENGTH:e}, of which no motion can be made"
+        "the keys put joint '{name}' at frame {frame} farther away than {LONGEST_LENGTH:e}, too far for a motion"
     );
-    Err(Failure::new(why).try_next("look at its slopes, and at what it does beyond its keys"))
+    Err(Failure::new(why).try_next("check its slopes, and what it does beyond its keys"))
 }
 
 /// The scene of a file as the document that all commands work on: baked at its own rate.
@@ -157,14 +157,13 @@ pub(crate) fn refuse_large(shot: &Shot, frame_count: usize) -> Result<(), Failur
         return Ok(());
     }
     let what = format!(
-        "{} of {} are too many at once: frames times joints go up to {}",
+        "{} of {} are too many at once: frames times joints may be at most {}",
         counted(frame_count, "frame"),
         counted(shot.skeleton().joint_count(), "joint"),
         grouped(MOST_POSED)
     );
     Err(Failure::new(what).try_next(
-        "take a part with --frames, lower frames_per_sec or shorten range_secs in the scene, or make a motion \
-         file of it first with posekit keys bake",
+        "take a part with --frames, lower frames_per_sec or shorten range_secs in the scene, or turn it into a motion file first with posekit keys bake",
     ))
 }
 

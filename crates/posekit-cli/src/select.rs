@@ -65,7 +65,9 @@ impl FromStr for FramePart {
             return Err("a step of 0 never ends".to_owned());
         }
         if end.is_some_and(|end| end <= start) {
-            return Err(format!("'{text}' is empty: its end must be past its start"));
+            return Err(format!(
+                "'{text}' is empty: its end must come after its start"
+            ));
         }
         Ok(Self::Range { start, end, step })
     }
@@ -153,7 +155,7 @@ fn frame_past_the_end(frame: usize, frame_count: usize) -> Failure {
 
 /// What to say of a range of frames that reaches past the end.
 pub(crate) fn range_past_the_end(start: usize, end: usize, frame_count: usize) -> String {
-    format!("{start}..{end} reaches past the end and stops there: the frames are 0..{frame_count}")
+    format!("{start}..{end} goes past the end, so it stops there: the frames are 0..{frame_count}")
 }
 
 /// The joints that a list of names and patterns selects, in the skeleton's order; all of them for
@@ -240,7 +242,7 @@ impl FromStr for PointArg {
                 joint: joint.to_owned(),
                 point_in_joint: Vec3::new(x, y, z),
             }),
-            _ => Err("a point is a joint and three numbers, as RightHand,0,0.1,0".to_owned()),
+            _ => Err("a point is a joint and three numbers, such as RightHand,0,0.1,0".to_owned()),
         }
     }
 }
@@ -295,7 +297,7 @@ mod tests {
             |text: &str, count: usize| text.parse::<FrameSelection>().unwrap().past_the_end(count);
         assert_eq!(
             note("0..5,100..9999", 200).unwrap(),
-            "100..9999 reaches past the end and stops there: the frames are 0..200"
+            "100..9999 goes past the end, so it stops there: the frames are 0..200"
         );
         for text in ["0..200", "0..", "199", "7,0..200:5"] {
             assert_eq!(note(text, 200), None, "{text}");

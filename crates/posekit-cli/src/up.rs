@@ -48,13 +48,13 @@ fn guessed(motion: &Motion) -> (UpAxis, Option<String>) {
         (UpAxis::Y, None)
     } else if guess.is_known() {
         let text = format!(
-            "{} is up, {because}, and the figure is stood on it; --up says otherwise",
+            "{} is up, {because}, so the figure is turned to stand on it; --up chooses another axis",
             guess.up
         );
         (guess.up, Some(text))
     } else {
         let text = format!(
-            "{} may be up, {because}; Y is drawn upright, and --up says otherwise",
+            "{} may be up, {because}; drawn with Y up, and --up chooses another axis",
             guess.up
         );
         (UpAxis::Y, Some(text))
@@ -65,13 +65,15 @@ fn guessed(motion: &Motion) -> (UpAxis, Option<String>) {
 pub(crate) fn because(guess: UpGuess) -> String {
     match guess.evidence {
         UpEvidence::RestPoseAndMotion | UpEvidence::RestPose => {
-            "as the rest pose stands".to_owned()
+            "because the rest pose stands along it".to_owned()
         }
         UpEvidence::RestPoseAgainstMotion(other) => {
-            format!("as the rest pose stands, though in the motion the trunk points along {other}")
+            format!(
+                "because the rest pose stands along it, though in the motion the trunk points along {other}"
+            )
         }
-        UpEvidence::Motion => "as the figure stands in the motion".to_owned(),
-        _ => "since the figure is tallest along it".to_owned(),
+        UpEvidence::Motion => "because the figure stands along it in the motion".to_owned(),
+        _ => "because the figure is tallest along it".to_owned(),
     }
 }
 

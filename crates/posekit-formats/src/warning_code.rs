@@ -85,13 +85,13 @@ warning_codes! {
     ExtraClosingBrace, "extra-closing-brace", Warning;
     /// There is no MOTION: the file is a skeleton alone.
     MissingMotion, "missing-motion", Note;
-    /// There is no `Frames:` number that makes sense; the rows were counted.
+    /// There is no usable `Frames:` number; the rows were counted.
     MissingFrameCount, "missing-frame-count", Warning;
     /// There is no `Frame Time:`; 1/30 s is used.
     MissingFrameTime, "missing-frame-time", Warning;
     /// The frame time is zero, negative, or so short or long that no motion has it; it is kept as the file says.
     BadFrameTime, "bad-frame-time", Warning;
-    /// A length or an angle is so large that no motion can be made of it; it is kept as the file says.
+    /// A length or an angle is too large for a motion; it is kept as the file says.
     ValueOutOfRange, "value-out-of-range", Warning;
     /// `Frames:` announces a different number of rows than there are; the rows are used.
     FrameCountMismatch, "frame-count-mismatch", Warning;
@@ -115,7 +115,7 @@ warning_codes! {
     MissingJointLimit, "missing-joint-limit", Warning;
     /// A joint's lower limit is above its upper one; they are swapped.
     ReversedJointLimit, "reversed-joint-limit", Warning;
-    /// A joint mimics another in a way that makes no sense; it keeps a value of its own.
+    /// A joint mimics another in a way that cannot work; it keeps its own value.
     BrokenMimic, "broken-mimic", Warning;
     /// Links of a robot that move have no mass; simulators refuse them.
     MissingInertia, "missing-inertia", Note;
@@ -123,13 +123,13 @@ warning_codes! {
     UnknownMaterial, "unknown-material", Warning;
     /// A visual has no shape, or one that the format does not have; it is left out.
     UnknownShape, "unknown-shape", Warning;
-    /// A buffer of numbers is missing; what is in it was left out.
+    /// A buffer of numbers is missing; its contents were left out.
     MissingBuffer, "missing-buffer", Warning;
-    /// A glTF file has another skin with joints that the first has not; they were left out.
+    /// A glTF file has another skin with joints that the first one lacks; they were left out.
     OtherSkin, "other-skin", Note;
     /// A glTF node has no name; it is called by its number.
     UnnamedNode, "unnamed-node", Note;
-    /// A glTF node is scaled; the scale was taken into the translations below it.
+    /// A glTF node is scaled; the scale was applied to the translations below it.
     NodeScale, "node-scale", Note;
     /// A glTF node has a scale that differs between axes, or a matrix that shears or flattens; what is below it is in its place at rest only.
     UnevenScale, "uneven-scale", Warning;

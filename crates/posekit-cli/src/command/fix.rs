@@ -49,13 +49,13 @@ pub(crate) struct FixArgs {
         requires = "bridge_gaps"
     )]
     max_gap: f64,
-    /// Write this as the seconds from a frame to the next
+    /// Set the seconds from one frame to the next
     #[arg(long, value_name = "SECS")]
     frame_time: Option<f64>,
-    /// Say what would be changed and write nothing
+    /// Only report what would be changed, and write nothing
     #[arg(long, conflicts_with = "output")]
     dry_run: bool,
-    /// Say the changes on standard output, as one JSON object a file, each on a line of its own
+    /// Report the changes on standard output, one JSON object per file, each on its own line
     #[arg(long)]
     json: bool,
 }
@@ -196,7 +196,7 @@ fn frames_in(secs: f64, frame_time: FrameTime) -> Result<usize, Failure> {
     const ROUNDING: f64 = 1e-3;
     if !(secs >= 0.0 && secs.is_finite()) {
         return Err(Failure::usage(
-            "--max-gap is a number of seconds, not below zero",
+            "--max-gap must be a number of seconds, zero or more",
         ));
     }
     let frame_time = match frame_time.is_none() {

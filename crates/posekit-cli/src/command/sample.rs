@@ -64,7 +64,7 @@ pub(crate) fn run(args: &SampleArgs, global: &Global) -> Result<(), Failure> {
     {
         let text = sample.scene().ok_or_else(|| {
             Failure::usage(format!("'{}' has no keys", args.name)).try_next(
-                "keyed-walk is authored in keys; posekit keys reduce finds some for a motion",
+                "only keyed-walk is made of keys; posekit keys reduce turns a motion into keys",
             )
         })?;
         return write_whole(target, |file| {

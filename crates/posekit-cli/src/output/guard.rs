@@ -88,7 +88,7 @@ impl Guard {
                 false => format!("{path}, which is the same file as {at}"),
             };
             let what = format!("{other} and {of} would both be written to {place}");
-            return Err(Failure::usage(what).try_next("give each a name of its own"));
+            return Err(Failure::usage(what).try_next("give each its own name"));
         }
         let claim = (of.to_owned(), path.to_owned());
         ledger.claimed.insert(place, claim);
@@ -162,7 +162,7 @@ impl Target {
             Some(other) if *other != self.path => {
                 let (other, this) = (other.display(), self.path.display());
                 let what = format!("{this} is the same file as {other}, which was just written");
-                Err(Failure::usage(what).try_next("give each result a name of its own"))
+                Err(Failure::usage(what).try_next("give each result its own name"))
             }
             _ => Ok(()),
         }

@@ -40,7 +40,7 @@ impl Plan {
         guard: &Guard,
     ) -> Result<Self, Failure> {
         if output.is_empty() {
-            return Err(Failure::usage("the output's name is empty"));
+            return Err(Failure::usage("the output name is empty"));
         }
         note_inputs(inputs, guard)?;
         if output == STDIN {
@@ -131,7 +131,7 @@ fn inside(relative: &Path) -> Result<&Path, Failure> {
         "cannot mirror '{}' inside a folder",
         relative.display()
     ))
-    .try_next("name the file or its folder outright"))
+    .try_next("name the file or its folder explicitly"))
 }
 
 /// Fills in `{stem}` (the input's name without extension), `{dir}` (its sub-folder) and `{ext}`.
@@ -161,7 +161,7 @@ fn fill(pattern: &str, input: &Input, extension: &str) -> Result<PathBuf, Failur
 }
 
 fn unknown_placeholder(text: &str) -> Failure {
-    Failure::usage(format!("'{text}' in the output's name is not known"))
+    Failure::usage(format!("'{text}' in the output name is not known"))
         .try_next("there are {stem}, {dir} and {ext}")
 }
 

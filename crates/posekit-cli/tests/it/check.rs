@@ -58,7 +58,7 @@ fn findings_stand_with_the_worst_first_and_say_what_to_do_next() {
     assert_eq!(ran.code, Some(1));
     assert_eq!(
         ran.stderr,
-        "error: bad.bvh: not accepted, for the findings above\n"
+        "error: bad.bvh: not accepted because of the findings above\n"
     );
     let severities: Vec<&str> = findings(&ran.stdout)
         .iter()
@@ -126,7 +126,7 @@ fn a_code_that_is_denied_fails() {
     let error = folder.fail(1, &["check", "flip.bvh", "arm.bvh", "--deny", "euler-flip"]);
     assert_eq!(
         error,
-        "error: flip.bvh: not accepted, for the findings above\n"
+        "error: flip.bvh: not accepted because of the findings above\n"
     );
     let error = folder.fail(2, &["check", "flip.bvh", "--deny", "no-such-code"]);
     assert!(error.contains("docs/check/README.md"), "{error}");
@@ -241,7 +241,9 @@ fn other_programs_are_judged_file_by_file() {
     ]);
     assert_eq!(report.lines().count(), 4, "{report}");
     assert!(
-        report.lines().all(|line| line.ends_with("reads it right")),
+        report
+            .lines()
+            .all(|line| line.ends_with("reads it correctly")),
         "{report}"
     );
     // The arm's root has an OFFSET and position channels.
@@ -249,7 +251,7 @@ fn other_programs_are_judged_file_by_file() {
     assert_eq!(ran.code, Some(1));
     assert_eq!(
         ran.stderr,
-        "error: arm.bvh in three.js: not read right, as said above\n"
+        "error: arm.bvh in three.js: not read correctly, see above\n"
     );
     assert!(
         ran.stdout

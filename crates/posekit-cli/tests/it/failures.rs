@@ -134,7 +134,7 @@ fn frames_and_joints_that_are_not_there_say_what_is() {
 #[test]
 fn a_range_past_the_end_is_a_note() {
     let folder = Folder::with_arm();
-    let note = "reaches past the end and stops there: the frames are 0..3";
+    let note = "goes past the end, so it stops there: the frames are 0..3";
     for args in [
         &["fk", "arm.bvh", "--frames", "1..99"][..],
         &["convert", "arm.bvh", "out.bvh", "--trim", "1..99"],

@@ -197,7 +197,7 @@ fn what_the_reader_of_a_named_file_noticed_reaches_every_command() {
         .split_once('"')
         .unwrap();
     folder.write("rig.gltf", format!("{start}\"gone.bin\"{end}"));
-    let told = "rig.gltf: buffers[0]: buffer 0 (`gone.bin`) is missing; what is in it was left out";
+    let told = "rig.gltf: buffers[0]: buffer 0 (`gone.bin`) is missing; its contents were left out";
     let info = folder.succeed(&["info", "rig.posekit.toml"]);
     assert!(
         info.contains(&format!("warning, {told} [missing-buffer]")),

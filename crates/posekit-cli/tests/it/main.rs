@@ -10,6 +10,7 @@
 
 mod bounds;
 mod check;
+mod conventions;
 mod convert;
 mod failures;
 mod fix;

@@ -181,7 +181,7 @@ fn what_makes_no_sense_is_refused_before_anything_is_drawn() {
         (&["-o", "x.avi"][..], "no format writes .avi"),
         (&["-o", "-"], "give --format"),
         (&["-o", "x.png", "--size", "0x9"], "from 1 to 16384"),
-        (&["-o", "x.png", "--size", "big"], "write it as 1280x720"),
+        (&["-o", "x.png", "--size", "big"], "write it like 1280x720"),
         (&["-o", "x.png", "--camera", "moon"], "three-quarter"),
         (&["-o", "x.gif", "--transparent"], "name it .png or .apng"),
         (&["-o", "x.gif", "--contact-sheet", "2"], "name it .png"),

@@ -53,7 +53,7 @@ pub enum GapError {
     },
     /// A channel has no number in any frame.
     #[error(
-        "{joint} has a channel without a number in any frame, so there is nothing to bridge from"
+        "{joint} has a channel that is not a number in any frame, so there is nothing to bridge from"
     )]
     NothingThere {
         /// The joint's name.

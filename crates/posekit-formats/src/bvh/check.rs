@@ -168,7 +168,7 @@ impl OutOfRange {
             unit: Unit::Occurrences,
             share_of_height: None,
             message: format!(
-                "{count} values of {whose}{at} are not within {LONGEST_LENGTH:e}: no motion can be made of them"
+                "{count} values of {whose}{at} are not within {LONGEST_LENGTH:e}, too large for a motion"
             ),
         });
     }
@@ -335,21 +335,23 @@ fn name_open_ends(entry: &mut CheckEntry, bvh: &Bvh, skeleton: &Skeleton) {
     };
 }
 
-/// `, lines 12, 40, 88`, with dots where not all places of `count` warnings are listed.
+/// `, lines 12, 40, 88`, each once, with dots where not all places of `count` warnings are listed.
 fn other_lines(others: &[&Warning], count: usize) -> String {
-    let places: Vec<String> = others
+    let mut all: Vec<String> = others
         .iter()
-        .take(LINES_LISTED)
         .map(|warning| match &warning.place {
             Place::Text(location) => location.line.to_string(),
             place => place.to_string(),
         })
         .collect();
+    all.dedup();
     let are_lines = others
         .iter()
         .all(|warning| matches!(warning.place, Place::Text(_)));
-    let more = if places.len() < count { ", ..." } else { "" };
-    match places.as_slice() {
+    let is_whole = others.len() == count && all.len() <= LINES_LISTED;
+    let more = if is_whole { "" } else { ", ..." };
+    all.truncate(LINES_LISTED);
+    match all.as_slice() {
         [] => String::new(),
         places if !are_lines => format!(", {}{more}", places.join(", ")),
         [line] => format!(", line {line}{more}"),

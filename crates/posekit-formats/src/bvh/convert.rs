@@ -63,7 +63,7 @@ impl Bvh {
     /// The skeleton and its motion; a document without a MOTION section gives a motion without
     /// frames.
     ///
-    /// A frame time that cannot be counts as none: every frame is at the same time.
+    /// A frame time that cannot be right counts as none: every frame is at the same time.
     ///
     /// # Errors
     /// [`MotionError`] as [`to_skeleton`](Self::to_skeleton) and [`Motion::from_channel_rows`].

@@ -53,7 +53,7 @@ pub enum ChangeCode {
     FlipsUnwrapped,
     /// The frame time is another one, as asked for.
     FrameTimeSet,
-    /// A frame time that cannot be right was left, because nobody said the right one.
+    /// A frame time that cannot be right right was left, because nobody said the right one.
     FrameTimeKept,
     /// Values of which no motion can be made were left.
     ValueKept,
@@ -151,8 +151,7 @@ fn frame_time(document: &mut Bvh, config: &FixConfig) -> Result<Option<Change>, 
     let Some(secs) = config.frame_time_secs else {
         let is_possible = |secs: f64| secs > 0.0 && secs < SLOWEST_FRAME_TIME_SECS;
         let kept = old.filter(|&secs| !is_possible(secs)).map(|secs| {
-            let message =
-                format!("a frame time of {secs:?} s kept: --frame-time sets the right one");
+            let message = format!("a frame time of {secs:?} s kept: --frame-time sets another");
             change(ChangeCode::FrameTimeKept, message)
         });
         return Ok(kept);
@@ -289,7 +288,7 @@ fn values_kept(import: &Import<Bvh>) -> Vec<Change> {
         location: None,
         count,
         message: format!(
-            "{count} {what} beyond {LONGEST_LENGTH:e} kept, of which no motion can be made{remedy}"
+            "{count} {what} beyond {LONGEST_LENGTH:e} kept, too large for a motion{remedy}"
         ),
     };
     let bridge = ": --bridge-gaps fills them from the frames beside them";

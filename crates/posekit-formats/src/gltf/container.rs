@@ -177,7 +177,7 @@ impl<'a, F: FnMut(&str) -> Option<Vec<u8>>> Buffers<'a, F> {
                 let path = [Step::Key("buffers"), Step::Index(index)];
                 notes.warn(WarningCode::MissingBuffer, &path, || {
                     let name = uri.map_or("in the file".to_owned(), |uri| quote(uri.as_bytes()));
-                    format!("buffer {index} ({name}) is missing; what is in it was left out")
+                    format!("buffer {index} ({name}) is missing; its contents were left out")
                 });
             }
             *held = Some(bytes);

@@ -248,7 +248,7 @@ fn choose(
     for index in other.collect::<Vec<_>>() {
         let path = [Step::Key("skins"), Step::Index(index)];
         notes.warn(WarningCode::OtherSkin, &path, || {
-            format!("skin {index} has joints that the first has not; they were left out")
+            format!("skin {index} has joints that the first one lacks; they were left out")
         });
     }
     // Nodes between two joints carry the lower one.
@@ -349,7 +349,7 @@ fn transform(node: &Node, index: usize, is_joint: bool, notes: &mut Notes) -> Tr
                 scale,
             };
         }
-        let message = "the matrix flattens; only its translation was taken".to_owned();
+        let message = "the matrix is flat; only its translation is used".to_owned();
         warn(WarningCode::UnevenScale, "matrix", message);
         return Transform {
             translation,
@@ -371,8 +371,8 @@ fn transform(node: &Node, index: usize, is_joint: bool, notes: &mut Notes) -> Tr
     };
     if !length.is_finite() || (length - 1.0).abs() > UNIT_TOLERANCE {
         let message = match rotation == DQuat::IDENTITY {
-            true => "the rotation is not a quaternion; none was taken".to_owned(),
-            false => format!("the rotation is not of unit length ({length:.4}); it was made so"),
+            true => "the rotation is not a quaternion; it is ignored".to_owned(),
+            false => format!("the rotation is not of unit length ({length:.4}); it is normalised"),
         };
         warn(WarningCode::RotationNotUnit, "rotation", message);
     }
@@ -391,11 +391,11 @@ fn warn_of_scale(scale: DVec3, what: &str, warn: &mut impl FnMut(WarningCode, &s
     // A mirroring that is the same along all axes commutes with every rotation.
     if scale.x == 0.0 || !scale.abs_diff_eq(even, SCALE_TOLERANCE * scale.x.abs()) {
         let message = format!(
-            "the scale {x} {y} {z} is not the same along all axes: what is below it is in its place at rest only"
+            "the scale {x} {y} {z} is not the same along all axes: the joints below it are in place at rest only"
         );
         warn(WarningCode::UnevenScale, what, message);
     } else if !scale.abs_diff_eq(DVec3::ONE, SCALE_TOLERANCE) {
-        let message = format!("the scale {x} was taken into the translations below it");
+        let message = format!("the scale {x} was applied to the translations below it");
         warn(WarningCode::NodeScale, what, message);
     }
 }

@@ -16,7 +16,7 @@
 //! - A file of a newer [`VERSION`] is refused by its number before anything else in it is looked at; files
 //!   of older ones are read.
 //! - Rotation keys that are Euler angles are **Euler curves**, in files of every version, unless the track
-//!   says `mode = "quaternion"`: whoever writes 0 and then 360 means a turn. (In version 1 a slope set by
+//!   says `mode = "quaternion"`: somebody who writes 0 and then 360 means a turn. (In version 1 a slope set by
 //!   hand was one of four numbers, which quaternions alone have: such a track stays one of quaternions.)
 //! - All problems of a file are found at once, each with line, column and path. A name that the format
 //!   does not have is a problem: it is more likely a typing error than a wish.

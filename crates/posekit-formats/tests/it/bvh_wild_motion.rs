@@ -364,3 +364,18 @@ fn memory_stays_in_proportion() {
         assert!(values.capacity() * 8 <= 4 * text.len());
     }
 }
+
+/// Several values of one line are one line to look at.
+#[test]
+fn a_line_is_named_once_among_those_alike() {
+    let large = b"HIERARCHY\nROOT arm\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nEnd Site\n{\n\
+        OFFSET 0 1 0\n}\n}\nMOTION\nFrames: 2\nFrame Time: 0.04\n1e39 1e39 1e39\n1e39 1e39 0\n";
+    let import = posekit_formats::bvh::read(large).unwrap();
+    let entries = posekit_formats::bvh::reader_entries(&import.report);
+    assert_eq!(entries.len(), 1);
+    let message = &entries[0].message;
+    assert!(
+        message.ends_with("(and 4 more like it, lines 14, 15)"),
+        "{message}"
+    );
+}

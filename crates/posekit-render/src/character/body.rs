@@ -47,7 +47,7 @@ pub fn body_mesh(skeleton: &Skeleton, proportions: &Proportions) -> Mesh {
 
 fn humanoid(skeleton: &Skeleton, proportions: &Proportions, figure: Mannequin<'_>) -> Mesh {
     let mut fitter = Fitter::new(&proportions.reference);
-    add_trunk(&mut fitter, &figure);
+    add_trunk(&mut fitter, skeleton, &figure);
     add_legs(&mut fitter, &figure);
     add_arms(&mut fitter, skeleton, &figure);
     for joint in rest_of_body(skeleton, figure.anatomy) {
@@ -92,10 +92,27 @@ fn rest_of_body(skeleton: &Skeleton, anatomy: &Anatomy) -> Vec<JointId> {
         hides[joint.index()] |= is_hidden;
         covered[joint.index()] |= is_hidden;
     }
+    let hangs = hangs_from_body(skeleton, anatomy);
     skeleton
         .joints()
-        .filter(|joint| !covered[joint.index()])
+        .filter(|joint| !covered[joint.index()] && hangs[joint.index()])
         .collect()
+}
+
+/// Which joints are below one of the body. What hangs beside it, from a root on the floor, moves a rig
+/// (targets for hands and feet) and is no flesh.
+fn hangs_from_body(skeleton: &Skeleton, anatomy: &Anatomy) -> Vec<bool> {
+    let mut hangs = vec![false; skeleton.joint_count()];
+    std::iter::once(anatomy.pelvis)
+        .chain(anatomy.trunk.iter().copied())
+        .chain([anatomy.head])
+        .chain(anatomy.limbs().map(|limb| limb.upper))
+        .for_each(|joint| hangs[joint.index()] = true);
+    for joint in skeleton.joints() {
+        let parent = skeleton.parent(joint);
+        hangs[joint.index()] |= parent.is_some_and(|parent| hangs[parent.index()]);
+    }
+    hangs
 }
 
 fn add_extra(fitter: &mut Fitter<'_>, skeleton: &Skeleton, joint: JointId, stature: f32) {

@@ -2,7 +2,7 @@
 
 use glam::{Mat3, Vec3};
 
-use posekit::skeleton::JointId;
+use posekit::skeleton::{JointId, Skeleton};
 
 use crate::mesh::{LoftRing, MaterialId, Shape};
 
@@ -39,6 +39,13 @@ const HEAD: &[[f32; 4]] = &[
 /// Half the head's height, in statures.
 const HEAD_HALF: f32 = 0.067;
 
+/// From the joint at the base of the skull to the crown, in statures.
+const CROWN: f32 = 0.118;
+
+/// A joint of the head that ends the figure and is this far from the one before, in statures, is the
+/// middle of the skull: depth cameras see no other. From the neck's base to the skull's it is 0.05 to 0.07.
+const TO_MIDDLE_OF_SKULL: f32 = 0.08;
+
 /// Half the length of skin that bends between two joints of the spine, as a share of the trunk.
 const BEND: f32 = 0.045;
 /// From ring to ring of the trunk's skin, by the same measure.
@@ -52,11 +59,11 @@ struct Frame {
     chest_half_width: f32,
 }
 
-pub(super) fn add_trunk(fitter: &mut Fitter<'_>, figure: &Mannequin<'_>) {
+pub(super) fn add_trunk(fitter: &mut Fitter<'_>, skeleton: &Skeleton, figure: &Mannequin<'_>) {
     let frame = frame(fitter, figure);
     add_torso(fitter, figure, &frame);
     add_neck(fitter, figure, &frame);
-    add_head(fitter, figure);
+    add_head(fitter, skeleton, figure);
 }
 
 fn frame(fitter: &Fitter<'_>, figure: &Mannequin<'_>) -> Frame {
@@ -266,7 +273,15 @@ fn add_neck(fitter: &mut Fitter<'_>, figure: &Mannequin<'_>, frame: &Frame) {
     }
 }
 
-fn add_head(fitter: &mut Fitter<'_>, figure: &Mannequin<'_>) {
+fn is_middle_of_skull(fitter: &Fitter<'_>, skeleton: &Skeleton, figure: &Mannequin<'_>) -> bool {
+    let head = figure.anatomy.head;
+    let from_neck = fitter.at(head) - fitter.at(figure.anatomy.neck());
+    figure.anatomy.neck() != head
+        && skeleton.children(head).is_empty()
+        && from_neck.length() > TO_MIDDLE_OF_SKULL * figure.stature
+}
+
+fn add_head(fitter: &mut Fitter<'_>, skeleton: &Skeleton, figure: &Mannequin<'_>) {
     let Mannequin {
         anatomy,
         axes,
@@ -274,7 +289,12 @@ fn add_head(fitter: &mut Fitter<'_>, figure: &Mannequin<'_>) {
     } = *figure;
     let joint = fitter.at(anatomy.head);
     let up = axes.up;
-    let top = joint + up * (0.118 * stature);
+    let crown = if is_middle_of_skull(fitter, skeleton, figure) {
+        HEAD_HALF
+    } else {
+        CROWN
+    };
+    let top = joint + up * (crown * stature);
     let center = top - up * (HEAD_HALF * stature);
     let (left, forward) = (axes.left, axes.forward);
     let rings: Vec<LoftRing> = HEAD

@@ -120,7 +120,7 @@ impl Viewer {
         };
         let (name, up) = (&clip.name, clip.reading.up);
         let text =
-            format!("{name}: {up} is up, as the rest pose stands; the inspector has the choice");
+            format!("{name}: {up} is up, judging by the rest pose; change it in the inspector");
         self.notices
             .add(NoticeKind::Done, text, ctx.input(|i| i.time));
     }

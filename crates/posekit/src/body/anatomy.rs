@@ -58,7 +58,7 @@ pub enum NoAnatomy {
     #[error("legs were found, but no head")]
     NoHead,
     /// Names and lengths contradict each other.
-    #[error("the names of its joints do not fit the lengths of its bones")]
+    #[error("the names of its joints do not match the lengths of its bones")]
     Contradiction,
 }
 

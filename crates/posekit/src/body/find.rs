@@ -390,9 +390,12 @@ impl Tree<'_> {
             let climb = self.skeleton.ancestors(pelvis);
             trunk.extend(climb.take_while(|&j| j != top));
             trunk.push(top);
-            // A joint that only holds spine and pelvis together at one place is none of the spine's.
-            let holds = self.at(top).distance(self.at(pelvis)) < 0.1 * legs.length;
-            if holds && trunk.len() == 1 {
+            // A joint that only holds spine and pelvis together, at one place or from below as the
+            // centre of a figure does, is none of the spine's.
+            let from_pelvis = self.at(top) - self.at(pelvis);
+            let is_near = from_pelvis.length() < 0.1 * legs.length;
+            let is_below = from_pelvis.dot(self.at(head) - self.at(pelvis)) < 0.0;
+            if trunk.len() == 1 && (is_near || is_below && self.part(top).is_none()) {
                 trunk.clear();
             }
         }

@@ -90,6 +90,7 @@ const TERMS: &[(&str, Part)] = &[
     ("hips", Part::Pelvis),
     ("hip", Part::Hip),
     ("hipjoint", Part::HipJoint),
+    ("buttock", Part::HipJoint),
     ("spine", Part::Spine),
     ("chest", Part::Spine),
     ("torso", Part::Spine),
@@ -116,10 +117,12 @@ const TERMS: &[(&str, Part)] = &[
     ("shldr", Part::Shoulder),
     ("upperarm", Part::UpperArm),
     ("uparm", Part::UpperArm),
+    ("uarm", Part::UpperArm),
     ("armupper", Part::UpperArm),
     ("humerus", Part::UpperArm),
     ("arm", Part::Arm),
     ("forearm", Part::Forearm),
+    ("farm", Part::Forearm),
     ("lowerarm", Part::Forearm),
     ("lowarm", Part::Forearm),
     ("loarm", Part::Forearm),
@@ -158,6 +161,22 @@ const TERMS: &[(&str, Part)] = &[
     ("heel", Part::Toe),
     ("metatarsal", Part::Toe),
     ("footindex", Part::Toe),
+    // As MikuMikuDance has them.
+    ("下半身", Part::Pelvis),
+    ("腰", Part::Pelvis),
+    ("上半身", Part::Spine),
+    ("首", Part::Neck),
+    ("頭", Part::Head),
+    ("目", Part::Face),
+    ("肩", Part::Collar),
+    ("腕", Part::UpperArm),
+    ("ひじ", Part::Forearm),
+    ("手首", Part::Wrist),
+    ("指", Part::Finger),
+    ("足", Part::Thigh),
+    ("ひざ", Part::Shin),
+    ("足首", Part::Ankle),
+    ("つま先", Part::Toe),
 ];
 
 /// Terms that are words of their own; inside other words they mean nothing.
@@ -174,9 +193,9 @@ const WHOLE_WORDS: &[(&str, Part)] = &[
 ];
 
 const END_WORDS: &[&str] = &["end", "nub", "tip", "site", "leaf"];
-const TWIST_WORDS: &[&str] = &["twist", "roll"];
+const TWIST_WORDS: &[&str] = &["twist", "roll", "腕捩", "手捩"];
 const CONTROL_WORDS: &[&str] = &[
-    "ik", "target", "ctrl", "control", "pole", "slot", "mch", "org", "socket", "armature",
+    "ik", "ｉｋ", "target", "ctrl", "control", "pole", "slot", "mch", "org", "socket", "armature",
 ];
 
 /// Reads a name; `has_side` says whether the joint belongs to a side of the body.
@@ -207,6 +226,10 @@ pub(super) fn read(name: &str, has_side: bool) -> Reading {
             consider(start + term.len(), term.len(), part);
         }
     }
+    if found.is_none() && is_vertebra(name) {
+        reading.part = Some(Part::Spine);
+        return reading;
+    }
     reading.part = found.map(|(_, _, part)| part).and_then(|part| match part {
         Part::Hip if !has_side => Some(Part::Pelvis),
         // `SpineMiddle` is no finger, `ring` alone no hand's.
@@ -226,8 +249,18 @@ pub(super) fn without_namespace(name: &str) -> &str {
     from_end.map_or(name, |(at, _)| &name[at..])
 }
 
+/// Whether a name is a letter and a number, as vertebrae are called: `L5`, `T12`. On the spine `L` is
+/// no left.
+pub(super) fn is_vertebra(name: &str) -> bool {
+    let digits = name.strip_prefix(['C', 'T', 'L', 'S', 'R']);
+    digits.is_some_and(|digits| {
+        (1..=2).contains(&digits.len()) && digits.bytes().all(|digit| digit.is_ascii_digit())
+    })
+}
+
 /// The words of a name in lower case: cut at all that is no letter, before a capital after a small
-/// letter, and before the last of several capitals that a small letter follows.
+/// letter, and before the last of several capitals that a small letter follows. Letters that are neither,
+/// as in Japanese, end before a capital.
 pub(super) fn words(name: &str) -> Vec<String> {
     let letters: Vec<char> = name.chars().collect();
     let mut words = vec![String::new()];
@@ -242,7 +275,11 @@ pub(super) fn words(name: &str) -> Vec<String> {
             .is_some_and(|next| next.is_lowercase());
         let after_small = before.is_some_and(char::is_lowercase);
         let after_capital = before.is_some_and(char::is_uppercase);
-        if letter.is_uppercase() && (after_small || (after_capital && is_before_small)) {
+        let after_uncased =
+            before.is_some_and(|c| c.is_alphabetic() && !c.is_lowercase() && !c.is_uppercase());
+        if letter.is_uppercase()
+            && (after_small || after_uncased || (after_capital && is_before_small))
+        {
             words.push(String::new());
         }
         if let Some(word) = words.last_mut() {
@@ -258,10 +295,12 @@ fn without_side(word: &str) -> &str {
     if matches!(word, "l" | "r" | "left" | "right") {
         return "";
     }
-    ["left", "right"].iter().fold(word, |word, side| {
-        let word = word.strip_prefix(side).unwrap_or(word);
-        word.strip_suffix(side).unwrap_or(word)
-    })
+    ["left", "right", "左", "右"]
+        .iter()
+        .fold(word, |word, side| {
+            let word = word.strip_prefix(side).unwrap_or(word);
+            word.strip_suffix(side).unwrap_or(word)
+        })
 }
 
 #[cfg(test)]
@@ -296,6 +335,13 @@ mod tests {
             ("lradius", Part::Forearm),
             ("LeftToeBase", Part::Toe),
             ("left_foot_index", Part::Toe),
+            ("lButtock", Part::HipJoint),
+            ("LUArm", Part::UpperArm),
+            ("LFArm", Part::Forearm),
+            ("左腕", Part::UpperArm),
+            ("左手首", Part::Wrist),
+            ("右足", Part::Thigh),
+            ("右足首", Part::Ankle),
         ];
         for (name, part) in sided {
             assert_eq!(read(name, true).bone(), Some(part), "{name}");
@@ -307,6 +353,11 @@ mod tests {
             ("pelvis_lowerback", Some(Part::Spine)),
             ("JointChest", Some(Part::Spine)),
             ("upperneck", Some(Part::Neck)),
+            ("L5", Some(Part::Spine)),
+            ("T12", Some(Part::Spine)),
+            ("上半身2", Some(Part::Spine)),
+            ("頭", Some(Part::Head)),
+            ("センター", None),
             ("joint_Root", None),
             ("Bone.017", None),
             ("string", None),
@@ -325,6 +376,7 @@ mod tests {
         assert!(read("LeftForeArmRoll", true).is_twist);
         assert!(read("ik_foot_l", true).is_control);
         assert!(read("kneeIK.l", true).is_control);
+        assert!(read("左足ＩＫ", true).is_control);
         assert_eq!(read("MCH-foot.L", true).bone(), None);
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::skeleton::{JointId, Skeleton};
 
-use super::name::{without_namespace, words};
+use super::name::{is_vertebra, without_namespace, words};
 
 /// A side of the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -37,23 +37,47 @@ pub fn sides(skeleton: &Skeleton) -> Vec<Option<Side>> {
     sides
 }
 
-/// The side that a joint's name says: `LeftArm`, `l_arm`, `Arm.L`, `lHip`, `RThumb`.
+/// The side that a joint's name says: `LeftArm`, `l_arm`, `Arm.L`, `lHip`, `RThumb`, `LUArm`, `左腕`.
 pub fn side_of_name(name: &str) -> Option<Side> {
     let name = without_namespace(name);
+    if is_vertebra(name) {
+        return None;
+    }
     let words = words(name);
     let side_of = |word: &str| match word {
-        "left" | "l" => Some(Side::Left),
-        "right" | "r" => Some(Side::Right),
+        "left" | "l" | "左" => Some(Side::Left),
+        "right" | "r" | "右" => Some(Side::Right),
         _ => None,
     };
     let glued = |word: &String| {
-        [("left", Side::Left), ("right", Side::Right)]
-            .into_iter()
-            .find(|(side, _)| word.starts_with(side) || word.ends_with(side))
-            .map(|(_, side)| side)
+        [
+            ("left", Side::Left),
+            ("right", Side::Right),
+            ("左", Side::Left),
+            ("右", Side::Right),
+        ]
+        .into_iter()
+        .find(|(side, _)| word.starts_with(side) || word.ends_with(side))
+        .map(|(_, side)| side)
     };
     let plain = words.iter().find_map(|word| side_of(word));
-    plain.or_else(|| words.iter().find_map(glued))
+    plain
+        .or_else(|| words.iter().find_map(glued))
+        .or_else(|| side_of_initials(name))
+}
+
+/// Two initials before a word, `LUArm` and `RFArm`: the side, then upper or lower, fore or hind.
+fn side_of_initials(name: &str) -> Option<Side> {
+    let mut letters = name.chars();
+    let side = match letters.next()? {
+        'L' => Side::Left,
+        'R' => Side::Right,
+        _ => return None,
+    };
+    let is_initial = letters.next().is_some_and(|c| "ULFBH".contains(c));
+    let is_word = letters.next().is_some_and(char::is_uppercase)
+        && letters.next().is_some_and(char::is_lowercase);
+    (is_initial && is_word).then_some(side)
 }
 
 #[cfg(test)]
@@ -73,6 +97,8 @@ mod tests {
             "leftfoot",
             "J_Bip_L_Hand",
             "footLeft",
+            "LUArm",
+            "左足首",
         ] {
             assert_eq!(side_of_name(name), Some(Side::Left), "{name}");
         }
@@ -82,6 +108,8 @@ mod tests {
             "RHipJoint",
             "Foot.R",
             "Bip01 R Thigh",
+            "RFArm",
+            "右ひじ",
         ] {
             assert_eq!(side_of_name(name), Some(Side::Right), "{name}");
         }
@@ -94,6 +122,8 @@ mod tests {
             "Head",
             "root",
             "RIBS",
+            "L5",
+            "LODMesh",
             "",
         ] {
             assert_eq!(side_of_name(name), None, "{name}");

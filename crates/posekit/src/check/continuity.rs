@@ -197,7 +197,7 @@ fn reference_first_frame(
         unit: Unit::Degrees,
         share_of_height: None,
         message: format!(
-            "the first frame is a pose of its own: after it {} joints turn by up to {angle_deg:.0} \
+            "the first frame is a separate pose: after it {} joints turn by up to {angle_deg:.0} \
              degrees at once{moved}; the motion begins at frame 1",
             leaving.len()
         ),
@@ -224,15 +224,13 @@ fn rotation_finding(motion: &Motion, joint: JointId, found: &Break) -> Finding {
         BreakKind::Spike => (
             FindingCode::RotationSpike,
             format!(
-                "{name} leaves its course by {angle_deg:.0} degrees and comes back; it turns \
-                 {usual_deg:.1} degrees a frame around there"
+                "{name} leaves its course by {angle_deg:.0} degrees and comes back; near there it turns {usual_deg:.1} degrees a frame"
             ),
         ),
         BreakKind::Jump => (
             FindingCode::RotationJump,
             format!(
-                "{name} turns by {angle_deg:.0} degrees in one frame; it turns {usual_deg:.1} \
-                 degrees a frame around there"
+                "{name} turns by {angle_deg:.0} degrees in one frame; near there it turns {usual_deg:.1} degrees a frame"
             ),
         ),
     };
@@ -260,15 +258,13 @@ fn travel_finding(figure: &Figure, found: &Break) -> Finding {
         BreakKind::Spike => (
             FindingCode::PositionSpike,
             format!(
-                "the figure leaves its path by {way} and comes back; it strays by {usual} a frame \
-                 around there"
+                "the figure leaves its path by {way} and comes back; near there it strays by {usual} a frame"
             ),
         ),
         BreakKind::Jump => (
             FindingCode::Teleport,
             format!(
-                "the figure jumps by {way} in one frame; it strays from its way by {usual} a frame \
-                 around there"
+                "the figure jumps by {way} in one frame; near there it strays from its path by {usual} a frame"
             ),
         ),
     };

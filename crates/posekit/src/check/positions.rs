@@ -58,7 +58,10 @@ pub struct RelativePositions {
 impl RelativePositions {
     /// What is wrong and what to do, for a command that does not do it by itself.
     pub fn advice(&self) -> String {
-        format!("{}; --positions {} reads it right", self.what, self.option)
+        format!(
+            "{}; --positions {} reads it correctly",
+            self.what, self.option
+        )
     }
 }
 
@@ -126,7 +129,7 @@ pub fn relative_positions(
             unit: Unit::FileUnits,
             share_of_height: (height > 0.0).then(|| largest.distance / height),
             message: format!(
-                "{what}; --positions {option} reads it right, and all other findings are of it read so"
+                "{what}; --positions {option} reads it correctly, and all other findings are for that reading"
             ),
         },
         what,
@@ -221,7 +224,7 @@ fn relative_bones(motion: &Motion) -> Option<Found> {
         policy: PositionPolicy::Ignore,
         distance: farthest(&zero),
         what: format!(
-            "the position channels of {} are zero throughout, which would put each joint on its parent",
+            "the position channels of {} are zero throughout, which would put each joint at its parent",
             names(skeleton, &joints)
         ),
         joints,

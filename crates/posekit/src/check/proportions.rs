@@ -134,8 +134,7 @@ fn offsets_unlike_motion(
         unit: Unit::FileUnits,
         share_of_height: Some(distance / figure.height),
         message: format!(
-            "{} joints are elsewhere than their OFFSET says all the time, {} by {distance:.4} file \
-             units: a program that reads only OFFSETs draws another figure",
+            "{} joints are never where their OFFSET says, {} by {distance:.4} file units: a program that reads only OFFSETs draws another figure",
             unlike.len(),
             skeleton.unique_name(worst)
         ),
@@ -239,8 +238,7 @@ fn rest_pose_unlike_motion(
         unit: Unit::Degrees,
         share_of_height: None,
         message: format!(
-            "bones stand {angle_deg:.0} degrees steeper or flatter at rest than in the motion, on the \
-             mean{reason}"
+            "bones stand {angle_deg:.0} degrees steeper or flatter at rest than in the motion, on average{reason}"
         ),
     })
 }

@@ -34,8 +34,7 @@ pub enum Method {
 pub enum MethodError {
     /// Nobody knows it.
     #[error(
-        "`{word}` is no method: slerp, rawslerp, nlerp, lerp, matrix, rotvec, squad, or euler: and an order \
-         such as euler:ZXY"
+        "`{word}` is not a method; the methods are slerp, rawslerp, nlerp, lerp, matrix, rotvec, squad, and euler: with an order, such as euler:ZXY"
     )]
     Unknown {
         /// The word.
@@ -45,7 +44,9 @@ pub enum MethodError {
     #[error(transparent)]
     Order(#[from] EulerOrderError),
     /// The order of axes cannot make every rotation.
-    #[error("`{order}` cannot make every rotation: it takes three axes, no neighbours equal")]
+    #[error(
+        "`{order}` cannot make every rotation: it takes three axes, with no two neighbours equal"
+    )]
     IncompleteOrder {
         /// The order.
         order: String,

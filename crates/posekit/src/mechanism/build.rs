@@ -19,7 +19,7 @@ pub enum MechanismError {
         given: usize,
     },
     /// A number is not finite, an axis or quaternion not of unit length, or a range empty.
-    #[error("the {what} of joint {joint} `{name}` makes no sense")]
+    #[error("the {what} of joint {joint} `{name}` is not valid")]
     Value {
         /// Index of the joint.
         joint: usize,

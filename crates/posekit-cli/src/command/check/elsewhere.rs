@@ -71,10 +71,10 @@ pub(super) fn run(args: &CheckArgs, global: &Global) -> Result<(), Failure> {
     match wrong.as_slice() {
         [] => Ok(()),
         [one] => Err(Failure::new(format!(
-            "{one}: not read right, as said above"
+            "{one}: not read correctly, see above"
         ))),
         many => Err(Failure::new(format!(
-            "{} are not right, as said above",
+            "{} are not correct, see above",
             counted(many.len(), "reading")
         ))),
     }
@@ -122,10 +122,10 @@ impl Reading {
     fn text(&self, name: &str) -> String {
         let program = format!("{} {}", self.program.title(), self.program.version());
         let verdict = match self.effect() {
-            None => "reads it right",
-            Some(Effect::Renamed) => "reads it right, with other names",
-            Some(Effect::Unsure) => "may read it right",
-            Some(Effect::Misread) => "reads it wrong",
+            None => "reads it correctly",
+            Some(Effect::Renamed) => "reads it correctly, under other names",
+            Some(Effect::Unsure) => "may read it correctly",
+            Some(Effect::Misread) => "reads it wrongly",
             Some(Effect::Refused) => "refuses it",
         };
         let heading = styled(HEADING, &one_line(&format!("{name}: {program}")));
@@ -163,7 +163,7 @@ impl Reading {
         let option = format!("posekit convert --for {}", self.program.name());
         match &self.remedy {
             Ok(changes) if changes.is_empty() => {
-                format!("{option} writes it anew, which is enough")
+                format!("{option} rewrites it, which is enough")
             }
             Ok(changes) => format!("{option} {}", changes.join("; ")),
             Err(obstacle) => format!("{option} cannot help: {obstacle}"),

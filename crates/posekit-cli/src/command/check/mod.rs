@@ -40,10 +40,10 @@ pub(crate) struct CheckArgs {
     /// Files, folders, patterns, '-' or sample:NAME
     #[arg(value_name = "FILE", required = true)]
     files: Vec<OsString>,
-    /// Take findings of this code as errors; may be repeated
+    /// Treat findings with this code as errors; may be repeated
     #[arg(long, value_name = "CODE", value_parser = known_code)]
     deny: Vec<String>,
-    /// Take findings of this code as warnings; may be repeated
+    /// Treat findings with this code as warnings; may be repeated
     #[arg(long, value_name = "CODE", value_parser = known_code)]
     warn: Vec<String>,
     /// Show only findings that are at least this serious [default: info; of several files, for people, warning]
@@ -63,7 +63,7 @@ pub(crate) struct CheckArgs {
     /// Only the table that ends the output: a line for each code, the worst first
     #[arg(long)]
     summary: bool,
-    /// One JSON object a file, each on a line of its own; with --summary one for all
+    /// One JSON object per file, each on its own line; with --summary one for all
     #[arg(long)]
     json: bool,
 }
@@ -182,10 +182,10 @@ pub(crate) fn run(args: &CheckArgs, global: &Global) -> Result<(), Failure> {
     match denied.as_slice() {
         [] => Ok(()),
         [name] => Err(Failure::new(format!(
-            "{name}: not accepted, for the findings above"
+            "{name}: not accepted because of the findings above"
         ))),
         names => Err(Failure::new(format!(
-            "{} are not accepted, for the findings above: {}",
+            "{} are not accepted because of the findings above: {}",
             counted(names.len(), "file"),
             names.join(", ")
         ))),

@@ -102,7 +102,7 @@ impl Total {
         }
         let next = match self.fixable.as_slice() {
             [] => return Ok(()),
-            [name] => format!("some of it is repaired by: posekit fix '{name}' -o fixed.bvh"),
+            [name] => format!("to repair some of it: posekit fix '{name}' -o fixed.bvh"),
             names => format!(
                 "posekit fix repairs some of it in {}",
                 counted(names.len(), "file")

@@ -61,12 +61,12 @@ pub(super) fn apply(
             Some(from) => from,
             None => {
                 let guess = edit::guess_up_axis(bvh).ok_or_else(|| {
-                    Failure::new("cannot see which axis points up now")
-                        .try_next("say it with --from-up")
+                    Failure::new("cannot tell which axis points up now")
+                        .try_next("name it with --from-up")
                 })?;
                 if !guess.is_known() {
                     remarks.notes.push(format!(
-                        "took {} for the axis that points up now, {}; --from-up says it",
+                        "took {} as the axis that points up now, {}; --from-up names another",
                         guess.up,
                         up::because(guess)
                     ));
@@ -157,7 +157,7 @@ impl FromStr for Rename {
                 from: from.to_owned(),
                 to: to.to_owned(),
             }),
-            _ => Err("write the old and the new name, as Hips=pelvis".to_owned()),
+            _ => Err("write the old and the new name, such as Hips=pelvis".to_owned()),
         }
     }
 }
@@ -182,7 +182,7 @@ impl FromStr for Trim {
     fn from_str(text: &str) -> Result<Self, String> {
         let (start, end) = text
             .split_once("..")
-            .ok_or("write a range, as 10..50 (frames) or 0.5s..2s (time)")?;
+            .ok_or("write a range, such as 10..50 (frames) or 0.5s..2s (time)")?;
         let start = if start.is_empty() {
             Moment::Frame(0)
         } else {

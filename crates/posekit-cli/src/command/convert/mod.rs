@@ -45,7 +45,7 @@ pub(crate) struct ConvertArgs {
     format: Option<Format>,
     #[command(flatten)]
     positions: PositionsArgs,
-    /// Seconds from a frame to the next: the same frames, played faster or slower
+    /// Seconds from one frame to the next: the same frames, played faster or slower
     #[arg(long, value_name = "SECS")]
     frame_time: Option<f64>,
     /// Frames a second; joints turn by slerp between old frames
@@ -54,25 +54,25 @@ pub(crate) struct ConvertArgs {
     /// Part of the motion, by frame (10..50, without the last; 10..) or by time (0.5s..2s)
     #[arg(long, value_name = "RANGE")]
     trim: Option<Trim>,
-    /// Multiply every length, as 0.01 for centimetres to metres
+    /// Multiply every length, for example by 0.01 for centimetres to metres
     #[arg(long, value_name = "FACTOR")]
     scale: Option<f64>,
-    /// The axis that shall point up: x, y, z, or -x, -y, -z
+    /// The axis that should point up: x, y, z, or -x, -y, -z
     #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
     up: Option<UpAxis>,
     /// The axis that points up now [default: the one along which the rest pose stands]
     #[arg(long, value_name = "AXIS", requires = "up", allow_hyphen_values = true)]
     from_up: Option<UpAxis>,
-    /// Rotation order of every joint's channels, as ZXY
+    /// Rotation order of every joint's channels, such as ZXY
     #[arg(long, value_name = "ORDER")]
     order: Option<EulerOrder>,
     /// 3: positions on roots (and on joints that truly move) only; 6: positions and rotations on every joint
     #[arg(long, value_name = "3|6")]
     channels: Option<Channels>,
-    /// What this program would refuse or read wrong is changed; see posekit check --for
+    /// Change what this program would refuse or misread; see posekit check --for
     #[arg(long = "for", value_name = "PROGRAM")]
     program: Option<ProgramArg>,
-    /// Give joint A the name B, or by pattern, as 'mixamorig:*=*'; may be repeated
+    /// Rename joint A to B, or by pattern, such as 'mixamorig:*=*'; may be repeated
     #[arg(long, value_name = "A=B")]
     rename: Vec<Rename>,
     /// Put the joints in the order of another file with the same joints
@@ -121,7 +121,7 @@ pub(crate) fn run(args: &ConvertArgs, global: &Global) -> Result<(), Failure> {
         .transpose()?;
     let (files, output) = args.inputs_and_output()?;
     if args.format.is_none() {
-        extension::refuse_other(output, &["bvh"], "--format bvh writes it all the same")?;
+        extension::refuse_other(output, &["bvh"], "--format bvh writes BVH anyway")?;
     }
     let inputs = inputs::expand(files);
     let is_set = inputs.is_set;
@@ -154,8 +154,8 @@ impl ConvertArgs {
         }
         match self.files.split_last() {
             Some((output, files)) if !files.is_empty() => Ok((files, output)),
-            _ => Err(Failure::usage("where should the result go?")
-                .try_next("name it after the input, or with -o")),
+            _ => Err(Failure::usage("the output is missing")
+                .try_next("name it after the inputs, or with -o")),
         }
     }
 }

@@ -58,7 +58,7 @@ pub(crate) struct FkArgs {
     /// Frames by number from 0: 7, 0..100 (without the last), 0..200:5, 50.., or a list of these
     #[arg(long, value_name = "FRAMES")]
     frames: Option<FrameSelection>,
-    /// Joints by name or pattern, as Hips,'*Hand'; a joint's parent is then its closest ancestor here
+    /// Joints by name or pattern, such as Hips,'*Hand'; a joint's parent is then its closest ancestor among them
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     joints: Vec<String>,
     /// The rest pose, which the OFFSETs alone make, instead of the motion

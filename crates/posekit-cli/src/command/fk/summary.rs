@@ -98,7 +98,7 @@ impl Summary {
             "{}",
             styled(
                 DIM,
-                "lengths in the file's unit, speeds in that a second, Y up; -o FILE.npz writes all of it"
+                "lengths in the file's unit, speeds in that unit per second, Y up; -o FILE.npz writes everything"
             )
         )
     }

@@ -77,7 +77,7 @@ const OPTIONS: [(&str, &str, &str); 8] = [
     (
         "point",
         "X,Y,Z",
-        "The point of it that should be there, in its own space [default: the joint]",
+        "The point on it that should be there, in its own space [default: the joint]",
     ),
     (
         "weight",
@@ -155,7 +155,7 @@ impl FromArgMatches for Goals {
         }
         for (place, weight) in with_places::<f64>(matches, "weight") {
             if !(weight > 0.0 && weight.is_finite()) {
-                return Err(wrong("a weight is a number above zero"));
+                return Err(wrong("a weight must be greater than zero"));
             }
             list[owner(place)].weight = weight;
         }
@@ -244,7 +244,7 @@ pub(super) fn find(skeleton: &Skeleton, name: &str) -> Result<JointId, Failure> 
     match found.as_slice() {
         [joint] => Ok(*joint),
         _ => Err(Failure::usage(format!(
-            "'{name}' stands for {} joints",
+            "'{name}' matches {} joints",
             found.len()
         ))),
     }

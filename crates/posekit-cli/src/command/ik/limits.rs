@@ -50,7 +50,7 @@ impl FromStr for Stiffness {
                 joints: joints.to_owned(),
                 share,
             }),
-            _ => Err("expected a joint and a number from 0 to 1, as Spine=0.8".to_owned()),
+            _ => Err("expected a joint and a number from 0 to 1, such as Spine=0.8".to_owned()),
         }
     }
 }
@@ -69,7 +69,9 @@ pub(super) fn limits(
     }
     if let Some(beyond_deg) = args.within_motion {
         if !(beyond_deg >= 0.0 && beyond_deg.is_finite()) {
-            return Err(Failure::usage("--within-motion is an angle from zero on"));
+            return Err(Failure::usage(
+                "--within-motion must be an angle of zero or more",
+            ));
         }
         keep_within_motion(&figure.bvh, beyond_deg, &mut limits)?;
     }
@@ -156,7 +158,9 @@ fn read(bytes: &[u8], skeleton: &Skeleton, limits: &mut JointLimits) -> Result<(
         let at = |failure: Failure| failure.in_file(&format!("\"{name}\""));
         let joints = select::joints(skeleton, std::slice::from_ref(name)).map_err(at)?;
         let Value::Object(entry) = entry else {
-            return Err(at(Failure::new("expected an object, as {\"fixed\": true}")));
+            return Err(at(Failure::new(
+                "expected an object such as {\"fixed\": true}",
+            )));
         };
         apply(entry, &joints, limits).map_err(at)?;
     }
@@ -169,36 +173,37 @@ fn apply(
     limits: &mut JointLimits,
 ) -> Result<(), Failure> {
     for (kind, value) in entry {
-        let limit = match kind.as_str() {
-            "stiffness" => {
-                let share = number(value)?;
-                for &joint in joints {
-                    set_stiffness(limits, joint, share)?;
+        let limit =
+            match kind.as_str() {
+                "stiffness" => {
+                    let share = number(value)?;
+                    for &joint in joints {
+                        set_stiffness(limits, joint, share)?;
+                    }
+                    continue;
                 }
-                continue;
-            }
-            "hinge" => JointLimit::Hinge {
-                axis: axis(field(value, "axis")?)?,
-                angle_rad: degrees(field(value, "range")?)?,
-            },
-            "slide" => JointLimit::Slide {
-                axis: axis(field(value, "axis")?)?,
-                distance: range(field(value, "range")?)?,
-            },
-            "cone" => JointLimit::Cone {
-                axis: axis(field(value, "axis")?)?,
-                swing_max_rad: number(field(value, "swing")?)?.to_radians(),
-                twist_rad: value.get("twist").map_or(Ok(Interval::ALL), degrees)?,
-            },
-            "euler" => euler(value)?,
-            "fixed" if *value == Value::Bool(true) => JointLimit::Fixed,
-            "free" if *value == Value::Bool(true) => JointLimit::Free,
-            _ => {
-                return Err(Failure::new(format!("'{kind}' is not a limit")).try_next(
-                    "limits are hinge, cone, euler, slide, fixed and free, and stiffness",
+                "hinge" => JointLimit::Hinge {
+                    axis: axis(field(value, "axis")?)?,
+                    angle_rad: degrees(field(value, "range")?)?,
+                },
+                "slide" => JointLimit::Slide {
+                    axis: axis(field(value, "axis")?)?,
+                    distance: range(field(value, "range")?)?,
+                },
+                "cone" => JointLimit::Cone {
+                    axis: axis(field(value, "axis")?)?,
+                    swing_max_rad: number(field(value, "swing")?)?.to_radians(),
+                    twist_rad: value.get("twist").map_or(Ok(Interval::ALL), degrees)?,
+                },
+                "euler" => euler(value)?,
+                "fixed" if *value == Value::Bool(true) => JointLimit::Fixed,
+                "free" if *value == Value::Bool(true) => JointLimit::Free,
+                _ => {
+                    return Err(Failure::new(format!("'{kind}' is not a kind of limit")).try_next(
+                    "the kinds are hinge, cone, euler, slide, fixed and free, and stiffness",
                 ));
-            }
-        };
+                }
+            };
         for &joint in joints {
             set_limit(limits, joint, limit)?;
         }
@@ -210,7 +215,7 @@ fn euler(value: &Value) -> Result<JointLimit, Failure> {
     let order = field(value, "order")?
         .as_str()
         .and_then(|text| text.parse::<EulerOrder>().ok())
-        .ok_or_else(|| Failure::new("expected an order of axes, as \"ZXY\""))?;
+        .ok_or_else(|| Failure::new("expected an order of axes, such as \"ZXY\""))?;
     let ranges = field(value, "ranges")?;
     let ranges = ranges
         .as_array()
@@ -243,13 +248,13 @@ fn axis(value: &Value) -> Result<DVec3, Failure> {
     match numbers.as_deref() {
         Some(&[x, y, z]) => Ok(DVec3::new(x, y, z)),
         _ => Err(Failure::new(format!(
-            "expected an axis as [0, 1, 0], found {value}"
+            "expected an axis such as [0, 1, 0], found {value}"
         ))),
     }
 }
 
 fn range(value: &Value) -> Result<Interval, Failure> {
-    let wrong = || Failure::new(format!("expected a range as [-10, 90], found {value}"));
+    let wrong = || Failure::new(format!("expected a range such as [-10, 90], found {value}"));
     let ends = value
         .as_array()
         .filter(|list| list.len() == 2)

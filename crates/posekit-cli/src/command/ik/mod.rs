@@ -73,7 +73,7 @@ pub(crate) struct IkArgs {
     /// Let the roots go anywhere: the whole body moves
     #[arg(long)]
     free_root: bool,
-    /// Which way a chain bends: draw a joint such as an elbow to the side where the point lies
+    /// Which way a chain bends: pull a joint such as an elbow to the side where the point lies
     #[arg(long, value_name = "JOINT,X,Y,Z", allow_hyphen_values = true)]
     pole: Vec<PointArg>,
     /// Joint limits and stiffness, from a JSON file
@@ -83,7 +83,7 @@ pub(crate) struct IkArgs {
     /// beyond: knees bend as knees do [default: 30]
     #[arg(long, value_name = "DEGREES", num_args = 0..=1, require_equals = true, default_missing_value = "30")]
     within_motion: Option<f64>,
-    /// How much of its motion a joint withholds, from 0 to 1, as Spine=0.8; may be a pattern
+    /// How stiff a joint is, from 0 (free) to 1 (does not move), such as Spine=0.8; the name may be a pattern
     #[arg(long, value_name = "JOINT=SHARE")]
     stiffness: Vec<Stiffness>,
     /// How strongly joints are drawn back to where they were, from 0 to 1
@@ -97,7 +97,7 @@ pub(crate) struct IkArgs {
     /// Record every joint's update in every iteration here: .json or .csv
     #[arg(long, value_name = "FILE")]
     trace: Option<PathBuf>,
-    /// Give the summary as one JSON object, with every frame's residuals
+    /// Print the summary as one JSON object, with every frame's residuals
     #[arg(long)]
     json: bool,
 }

@@ -15,7 +15,7 @@ impl FromStr for Vector {
     fn from_str(text: &str) -> Result<Self, String> {
         match list(text).as_deref() {
             Some(&[x, y, z]) => Ok(Self(DVec3::new(x, y, z))),
-            _ => Err("expected three numbers, as 0.5,1.2,0".to_owned()),
+            _ => Err("expected three numbers, such as 0.5,1.2,0".to_owned()),
         }
     }
 }

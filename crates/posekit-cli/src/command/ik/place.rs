@@ -38,7 +38,7 @@ impl PlaceArg {
                 file: Some(file.to_owned()).filter(|file| !file.is_empty()),
                 joint: joint.to_owned(),
             }),
-            _ => Err("expected a file and a joint, as other.bvh:LeftHand".to_owned()),
+            _ => Err("expected a file and a joint, such as other.bvh:LeftHand".to_owned()),
         }
     }
 }
@@ -79,7 +79,7 @@ impl Place {
                 let inputs = inputs::expand(&[file.into()]);
                 let Some(input) = inputs.list.first().filter(|_| !inputs.is_set) else {
                     return Err(Failure::usage(format!(
-                        "'{file}' is not one file to follow"
+                        "'{file}' is not a single file to follow"
                     )));
                 };
                 let motion = load::load(input, global)?.motion(figure.policies)?;

@@ -23,7 +23,7 @@ pub(super) struct SolverArgs {
     /// How near counts as reached [default: a ten-thousandth of the longest chain]
     #[arg(long, value_name = "LENGTH")]
     tolerance: Option<f64>,
-    /// With --tolerance 0: farther from its target a solver at rest is stuck, and tries once more [default: a
+    /// With --tolerance 0: a solver at rest farther than this from its target is stuck, and tries once more [default: a
     /// ten-thousandth of the longest chain]
     #[arg(long, value_name = "LENGTH")]
     rest_tolerance: Option<f64>,
@@ -82,10 +82,14 @@ impl SolverArgs {
         let max_step_rad = match self.max_step {
             None => f64::INFINITY,
             Some(step) if step > 0.0 => step.to_radians(),
-            Some(_) => return Err(Failure::usage("--max-step is an angle above zero")),
+            Some(_) => {
+                return Err(Failure::usage(
+                    "--max-step must be an angle greater than zero",
+                ));
+            }
         };
         if !(0.0..=1.0).contains(&self.softness) {
-            return Err(Failure::usage("--softness is a share from 0 to 1"));
+            return Err(Failure::usage("--softness must be from 0 to 1"));
         }
         Ok(match self.solver {
             SolverName::Lm => Solver::LevenbergMarquardt(LevenbergMarquardtConfig::default()),
@@ -118,7 +122,7 @@ impl SolverArgs {
             [] => Ok(None),
             [upper, middle] => Ok(Some([find(skeleton, upper)?, find(skeleton, middle)?])),
             _ => Err(Failure::usage(
-                "--two-bone-joints takes two joints with a comma between them",
+                "--two-bone-joints takes two joints separated by a comma",
             )),
         }
     }
@@ -128,7 +132,7 @@ impl SolverArgs {
         let position_tolerance = self.tolerance.unwrap_or(1e-4 * reach);
         let rest_tolerance = self.rest_tolerance.unwrap_or(1e-4 * reach);
         if !(position_tolerance >= 0.0 && rest_tolerance >= 0.0 && self.turn_tolerance >= 0.0) {
-            return Err(Failure::usage("a tolerance is a number from zero on"));
+            return Err(Failure::usage("a tolerance must be zero or more"));
         }
         Ok(StopRule {
             position_tolerance,

@@ -80,7 +80,7 @@ impl Task {
         problem.limits = Arc::new(limits::limits(args, figure, global)?);
         if let Some(strength) = args.pull {
             if !(0.0..=1.0).contains(&strength) {
-                return Err(Failure::usage("--pull is a share from 0 to 1"));
+                return Err(Failure::usage("--pull must be from 0 to 1"));
             }
             let toward = PreferredPose::Start;
             problem.rest_pull = Some(RestPull { strength, toward });

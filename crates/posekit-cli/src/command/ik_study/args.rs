@@ -18,7 +18,7 @@ use crate::positions::PositionsArgs;
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct IkStudyArgs {
-    /// A motion, whose skeleton is worked on: a file, '-', or sample:NAME
+    /// The motion whose skeleton is studied: a file, '-' or sample:NAME
     #[arg(value_name = "FILE")]
     pub(super) file: OsString,
     /// The report; .csv, .md and .bvh go beside it
@@ -48,13 +48,13 @@ pub(crate) struct IkStudyArgs {
     /// Random targets out of reach, for each chain
     #[arg(long, value_name = "N", default_value_t = 40, value_parser = clap::value_parser!(u32).range(0..=100_000))]
     pub(super) unreachable: u32,
-    /// Which random targets
+    /// The seed for the random targets
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(super) seed: u64,
-    /// The solvers, with commas between them [default: all]
+    /// The solvers, separated by commas [default: all]
     #[arg(long = "solver", value_name = "SOLVERS", value_delimiter = ',')]
     pub(super) methods: Vec<Method>,
-    /// The numbers of iterations, with commas between them
+    /// The numbers of iterations, separated by commas
     #[arg(
         long,
         value_name = "COUNTS",
@@ -120,7 +120,8 @@ impl FromStr for NamedPlace {
                 place: DVec3::new(x, y, z),
             }),
             _ => Err(
-                "expected three numbers, and a name if you like, as shelf=0.4,1.6,0.3".to_owned(),
+                "expected three numbers, with a name if you like, such as shelf=0.4,1.6,0.3"
+                    .to_owned(),
             ),
         }
     }

@@ -120,8 +120,7 @@ impl Method {
             Self::Lm => Facts {
                 name: "LM",
                 full_name: "Levenberg-Marquardt",
-                step: "Minimises $½ |f(θ) − x′|²$: $Δθ = (JᵀJ + μI)⁻¹ Jᵀe$ with $μ = m|e|²$, lengths in those of the chain. The factor $m$ falls after a step \
-                       as good as foretold and rises after one that makes the error grow, which is taken back.",
+                step: "Minimises $½ |f(θ) − x′|²$: $Δθ = (JᵀJ + μI)⁻¹ Jᵀe$ with $μ = m|e|²$, lengths in those of the chain. The factor $m$ falls after a step as good as predicted and rises after one that makes the error grow, which is taken back.",
                 source: "Sugihara 2011, doi:10.1109/TRO.2011.2148230; Nielsen 1999",
             },
             Self::TwoBone => Facts {

@@ -206,7 +206,9 @@ fn chains(
         .tolerance
         .is_some_and(|tolerance| !(tolerance > 0.0 && tolerance.is_finite()))
     {
-        return Err(Failure::usage("--tolerance is a length above zero"));
+        return Err(Failure::usage(
+            "--tolerance must be a length greater than zero",
+        ));
     }
     let is_default = args.chains.is_empty();
     let ends: Vec<[JointId; 2]> = if is_default {
@@ -268,7 +270,7 @@ fn one_joint(skeleton: &Skeleton, name: &str) -> Result<JointId, Failure> {
     match found.as_slice() {
         [joint] => Ok(*joint),
         _ => Err(Failure::usage(format!(
-            "'{name}' stands for {} joints",
+            "'{name}' matches {} joints",
             found.len()
         ))),
     }

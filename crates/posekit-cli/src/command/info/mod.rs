@@ -38,7 +38,7 @@ pub(crate) struct InfoArgs {
     /// Draw the hierarchy too
     #[arg(long)]
     tree: bool,
-    /// One JSON object a file, each on a line of its own
+    /// One JSON object per file, each on its own line
     #[arg(long)]
     json: bool,
 }

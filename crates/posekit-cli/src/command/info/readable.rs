@@ -177,7 +177,7 @@ fn unit(facts: &Facts) -> String {
             )
         }
         None => format!(
-            "unknown: in no common unit is {} a person's {low} m to {high} m",
+            "unknown: in no common unit is {} within a person's {low} m to {high} m",
             trimmed(height, decimals_for(height))
         ),
     }
@@ -187,7 +187,7 @@ fn unit(facts: &Facts) -> String {
 pub(super) fn rest_pose(rest: &RestPose) -> String {
     let posture = match rest.kind {
         RestPoseKind::Collapsed => return "all joints in one place".to_owned(),
-        RestPoseKind::NoLimbPairs => return "no pairs of arms and legs to tell it by".to_owned(),
+        RestPoseKind::NoLimbPairs => return "no pairs of arms and legs to tell from".to_owned(),
         RestPoseKind::Standing(ArmPosture::Sideways) => "T-pose",
         RestPoseKind::Standing(ArmPosture::SidewaysDown) => "A-pose",
         RestPoseKind::Standing(ArmPosture::Hanging) => "standing, arms down",
@@ -197,7 +197,9 @@ pub(super) fn rest_pose(rest: &RestPose) -> String {
             let along = rest.up.map_or(String::new(), |axis| {
                 format!(" (spine along {})", end(axis))
             });
-            return format!("not a posture: OFFSETs as no one stands{along}; the motion holds it");
+            return format!(
+                "not a posture: nobody stands as the OFFSETs do{along}; the posture is in the motion"
+            );
         }
     };
     let mut text = posture.to_owned();

@@ -50,7 +50,7 @@ const MOST_FRAMES: f64 = 1e7;
 
 pub(super) fn run(args: &BakeArgs, global: &Global) -> Result<(), Failure> {
     if !args.order.is_complete() {
-        return Err(Failure::usage("--order takes three axes, as ZXY"));
+        return Err(Failure::usage("--order takes three axes, such as ZXY"));
     }
     extension::refuse_other(&args.output, &["bvh"], extension::REDIRECT)?;
     let frame_time = args.fps.map(FrameTime::of_rate).transpose();

@@ -42,7 +42,7 @@ pub(super) struct ReduceArgs {
     /// The largest distance, in heights of the skeleton
     #[arg(long, value_name = "HEIGHTS", default_value_t = 0.01)]
     distance: f64,
-    /// Keys with straight ways (slerp) between them instead of curves
+    /// Keys joined by straight lines (slerp) instead of curves
     #[arg(long)]
     linear: bool,
     /// Write the quaternions as Euler angles in degrees in this order; they stay quaternions between keys
@@ -59,7 +59,7 @@ Examples:
 
 pub(super) fn run(args: &ReduceArgs, global: &Global) -> Result<(), Failure> {
     if args.euler.is_some_and(|order| !order.is_complete()) {
-        return Err(Failure::usage("--euler takes three axes, as ZXY"));
+        return Err(Failure::usage("--euler takes three axes, such as ZXY"));
     }
     extension::refuse_other(&args.output, &[EXTENSION], extension::REDIRECT)?;
     let inputs = inputs::expand(std::slice::from_ref(&args.file));

@@ -58,7 +58,7 @@ pub(crate) struct RenderArgs {
     pub(super) up: UpArgs,
     #[command(flatten)]
     pub(super) positions: PositionsArgs,
-    /// Where from: a scene's camera by its name, or front, back, left, right, side, top, three-quarter,
+    /// The view: a scene's camera by its name, or front, back, left, right, side, top, three-quarter,
     /// or YAW,PITCH in degrees (0,0 is the front, 90,0 the figure's left) [default: a scene's first
     /// camera, else three-quarter]
     #[arg(long, value_name = "VIEW", allow_hyphen_values = true)]
@@ -66,11 +66,11 @@ pub(crate) struct RenderArgs {
     /// How skeletons are drawn
     #[arg(long, value_name = "STYLE", default_value = "body")]
     pub(super) style: StyleArg,
-    /// Whether the camera goes along with the figure; --follow alone is --follow=always
+    /// Whether the camera moves along with the figure; --follow alone is --follow=always
     #[arg(long, value_name = "WHEN", num_args = 0..=1, require_equals = true,
           default_value = "far", default_missing_value = "always")]
     pub(super) follow: FollowArg,
-    /// Joints that leave a trail, by name or pattern, as Head,'*Hand'
+    /// Joints that leave a trail, by name or pattern, such as Head,'*Hand'
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub(super) trails: Vec<String>,
     /// How far back trails go, in seconds
@@ -88,7 +88,7 @@ pub(crate) struct RenderArgs {
     #[arg(long, value_name = "NAMES", num_args = 0..=1, require_equals = true,
           value_delimiter = ',', default_missing_value = "*")]
     pub(super) labels: Vec<String>,
-    /// Another motion in the same place, in another colour; may be repeated
+    /// Another motion at the same place, in another colour; may be repeated
     #[arg(long, value_name = "OTHER.bvh", conflicts_with = "beside")]
     pub(super) overlay: Vec<OsString>,
     /// Another motion next to it; may be repeated
@@ -140,14 +140,14 @@ impl FromStr for Size {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let refused = || format!("'{text}' is not a size; write it as 1280x720");
+        let refused = || format!("'{text}' is not a size; write it like 1280x720");
         let (width, height) = text.split_once(['x', 'X']).ok_or_else(refused)?;
         let side = |digits: &str| digits.parse::<u32>().map_err(|_not_a_number| refused());
         let (width, height) = (side(width)?, side(height)?);
         if (1..=MAX_SIDE).contains(&width) && (1..=MAX_SIDE).contains(&height) {
             Ok(Self { width, height })
         } else {
-            Err(format!("sides go from 1 to {MAX_SIDE} pixels"))
+            Err(format!("each side must be from 1 to {MAX_SIDE} pixels"))
         }
     }
 }

@@ -38,8 +38,7 @@ impl FromStr for ViewArg {
 fn angles(text: &str) -> Result<ViewArg, String> {
     let refused = || {
         format!(
-            "'{text}' is not a view; there are front, back, left, right, side, top, three-quarter and \
-             YAW,PITCH in degrees"
+            "'{text}' is not a view; the views are front, back, left, right, side, top, three-quarter and YAW,PITCH in degrees"
         )
     };
     let (yaw, pitch) = text.split_once(',').ok_or_else(refused)?;
@@ -49,7 +48,7 @@ fn angles(text: &str) -> Result<ViewArg, String> {
     };
     let (yaw_deg, pitch_deg) = (degrees(yaw)?, degrees(pitch)?);
     if pitch_deg.abs() > 90.0 {
-        return Err("the pitch goes from -90 to 90 degrees".to_owned());
+        return Err("the pitch must be from -90 to 90 degrees".to_owned());
     }
     Ok(ViewArg::Around { yaw_deg, pitch_deg })
 }

@@ -72,7 +72,7 @@ pub(super) fn of(args: &RenderArgs) -> Result<Product, Failure> {
     let product = match (format, args.contact_sheet) {
         (Format::Png, Some(_)) if is_numbered => {
             return Err(Failure::usage(
-                "a contact sheet is one picture, and '#' in the name numbers several",
+                "a contact sheet is one picture, and '#' in the name is for several",
             ));
         }
         (Format::Png, Some(count)) => Product::ContactSheet { count },
@@ -87,7 +87,7 @@ pub(super) fn of(args: &RenderArgs) -> Result<Product, Failure> {
     };
     if args.transparent && matches!(product, Product::Mp4 | Product::Gif) {
         return Err(Failure::usage(format!(
-            ".{} has no transparency to speak of",
+            ".{} cannot hold partial transparency",
             product.extension()
         ))
         .try_next("name it .png or .apng"));

@@ -193,7 +193,7 @@ pub(super) fn prepare(
     if let Some(Part { baked, .. }) = part.as_ref().filter(|part| !part.baked.is_empty()) {
         motion_start_secs = baked.start as f64 * motion.frame_time_secs();
         notes.push(format!(
-            "of {} only {}..{} are baked, and the camera is set for these",
+            "only {1}..{2} of {0} are used, and the camera is placed for them",
             counted(frame_count, "frame"),
             baked.start,
             baked.end
@@ -293,8 +293,9 @@ fn surroundings(scene: &scene::Scene, file: &str, warnings: &mut Vec<String>) ->
     let prop = |prop: &scene::Prop| {
         let shape = PropShape::named(&prop.shape).unwrap_or_else(|| {
             let (name, shape) = (&prop.name, &prop.shape);
-            let warning =
-                format!("{file}: prop '{name}': mesh files are not read; a box stands for {shape}");
+            let warning = format!(
+                "{file}: prop '{name}': mesh files are not read; a box is drawn in place of {shape}"
+            );
             warnings.push(warning);
             PropShape::Box
         });
@@ -396,7 +397,7 @@ fn even_times(start: f64, end: f64, frames_per_sec: f64) -> Result<Vec<f64>, Fai
     if span > MOST_FRAMES {
         return Err(
             Failure::new(format!("{span} frames are too many for a film"))
-                .try_next("choose a part with --frames, or a lower --fps"),
+                .try_next("choose fewer with --frames, or a lower --fps"),
         );
     }
     #[allow(clippy::cast_possible_truncation, reason = "bounded above")]
@@ -467,7 +468,7 @@ fn same_joints(
         });
         if let Some(joint) = differs {
             return Err(Failure::new(format!(
-                "the other motion has no '{}' in this place of its skeleton",
+                "the other motion has no '{}' at this place in its skeleton",
                 skeleton.name(*joint)
             ))
             .try_next("posekit convert --reorder-like gives both one order"));

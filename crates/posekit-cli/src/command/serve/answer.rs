@@ -31,7 +31,7 @@ pub(super) async fn answer(site: &Arc<Site>, head: Parts) -> Response<Content> {
     let (mut response, kind) = match verdict {
         Verdict::Refused => other(refusal(
             StatusCode::FORBIDDEN,
-            "this needs the address with its token\n",
+            "open the full address, with its token\n",
         )),
         Verdict::Admitted | Verdict::AdmittedByAddress => match head.method {
             Method::GET | Method::HEAD => content(site, head).await,
@@ -91,7 +91,7 @@ async fn list(site: &Site, head: &Parts, kind: ListKind) -> Response<Content> {
     let validity = Validity::of_mark(&list.mark);
     match validity.judge(&head.headers) {
         Outcome::NotModified => not_modified(&validity),
-        Outcome::Failed => refusal(StatusCode::PRECONDITION_FAILED, "this is another version\n"),
+        Outcome::Failed => refusal(StatusCode::PRECONDITION_FAILED, "the file has changed\n"),
         Outcome::Send => {
             let mut response = text(StatusCode::OK, media_type, bytes.clone());
             validate(&validity, response.headers_mut());
@@ -128,7 +128,7 @@ fn file(site: &Site, head: &Parts) -> (Response<Content>, Kind) {
         }
         Err(Missing::Unreadable) => other(refusal(
             StatusCode::FORBIDDEN,
-            "the server is not allowed to read this file\n",
+            "the server may not read this file\n",
         )),
     }
 }
@@ -145,7 +145,7 @@ fn version_of(found: Found, head: &Parts) -> Response<Content> {
     match validity.judge(&head.headers) {
         Outcome::NotModified => return not_modified(&validity),
         Outcome::Failed => {
-            return refusal(StatusCode::PRECONDITION_FAILED, "this is another version\n");
+            return refusal(StatusCode::PRECONDITION_FAILED, "the file has changed\n");
         }
         Outcome::Send => {}
     }
@@ -160,7 +160,7 @@ fn version_of(found: Found, head: &Parts) -> Response<Content> {
         Some(Part::Bytes(bytes)) => (StatusCode::PARTIAL_CONTENT, bytes),
         Some(Part::Nowhere) => {
             let status = StatusCode::RANGE_NOT_SATISFIABLE;
-            let mut response = refusal(status, "the file has no such bytes\n");
+            let mut response = refusal(status, "the requested range is outside the file\n");
             insert(
                 response.headers_mut(),
                 CONTENT_RANGE,
@@ -279,10 +279,7 @@ fn refusal(status: StatusCode, why: &'static str) -> Response<Content> {
 }
 
 fn only_reading() -> Response<Content> {
-    let mut response = refusal(
-        StatusCode::METHOD_NOT_ALLOWED,
-        "this server is only read from\n",
-    );
+    let mut response = refusal(StatusCode::METHOD_NOT_ALLOWED, "this server is read-only\n");
     let headers = response.headers_mut();
     headers.insert(ALLOW, HeaderValue::from_static("GET, HEAD"));
     response

@@ -43,8 +43,11 @@ impl Gate {
     /// For a server that others reach.
     pub(super) fn with_new_token() -> Result<Self, Failure> {
         let mut bytes = [0; TOKEN_BYTES];
-        getrandom::fill(&mut bytes)
-            .map_err(|error| Failure::new(format!("the system gave no random token: {error}")))?;
+        getrandom::fill(&mut bytes).map_err(|error| {
+            Failure::new(format!(
+                "the system could not supply a random token: {error}"
+            ))
+        })?;
         let token = bytes.iter().map(|byte| format!("{byte:02x}")).collect();
         Ok(Self { token: Some(token) })
     }

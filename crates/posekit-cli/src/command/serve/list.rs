@@ -101,7 +101,7 @@ impl List {
                 listed + left_out
             )),
             (_, true) => Some(format!(
-                "only the first {listed} clips are listed: the folder was not searched to its end"
+                "only the first {listed} clips are listed: the folder was not searched completely"
             )),
         }
     }
@@ -137,7 +137,7 @@ impl List {
         );
         if let Some(shortage) = shortage {
             page += &format!(
-                "<p>{}; serve a folder with fewer.</p>",
+                "<p>{}; serve a subfolder to see the others.</p>",
                 capitalized(&escaped(shortage))
             );
         }
@@ -331,7 +331,7 @@ mod tests {
                 .write()
                 .shortage
                 .unwrap()
-                .contains("not searched to its end")
+                .contains("not searched completely")
         );
         let whole = List::of(
             &root,

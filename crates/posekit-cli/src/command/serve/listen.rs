@@ -29,8 +29,8 @@ use super::watched::Watched;
 const MOST_HEAD_BYTES: usize = 16 * 1024;
 /// A client that has not sent its request after this long is dropped.
 const HEAD_TIME: Duration = Duration::from_secs(10);
-/// This much is handed to the system ahead of who reads. It takes more when a third of it was taken, and
-/// one who reads more slowly than that in the time for a stall is hung up on: 3 kB a second.
+/// This much is handed to the system ahead of the client. It takes more when a third of that was read, and
+/// a client that reads more slowly than that in the time for a stall is dropped: 3 kB a second.
 const SEND_BUFFER_BYTES: u32 = 1 << 18;
 /// Connections that the system holds until they are accepted.
 const BACKLOG: u32 = 1024;
@@ -99,12 +99,12 @@ fn cannot_listen(address: IpAddr, port: u16, error: &io::Error) -> Failure {
     let place = SocketAddr::new(address, port);
     match error.kind() {
         io::ErrorKind::AddrInUse => {
-            Failure::new(format!("{place}: something else listens here already"))
+            Failure::new(format!("{place}: already in use by another program"))
                 .try_next("choose another --port, or 0 for any free one")
         }
         io::ErrorKind::PermissionDenied => {
-            Failure::new(format!("{place}: not allowed to listen here"))
-                .try_next("choose a --port from 1024 on")
+            Failure::new(format!("{place}: no permission to listen here"))
+                .try_next("choose a --port of 1024 or more")
         }
         io::ErrorKind::AddrNotAvailable => {
             Failure::new(format!("{place}: this machine has no such address"))
@@ -121,11 +121,13 @@ fn announce(site: &Site, local: SocketAddr, global: &Global) -> Result<(), Failu
     out.flush()?;
     if !global.quiet {
         console::note(&format!(
-            "serving the clips of {}, listed at http://{local}/clips/; ^C ends it",
+            "serving the clips of {}, listed at http://{local}/clips/; press Ctrl+C to stop",
             site.clips.display()
         ));
         if local.ip().is_unspecified() {
-            console::note("others put this machine's own address in the place of the zeros");
+            console::note(
+                "from other machines, write this machine's own address in place of the zeros",
+            );
         }
     }
     Ok(())

@@ -49,7 +49,7 @@ pub(crate) struct ServeArgs {
     /// Port; 0 is any free one
     #[arg(long, value_name = "N", default_value_t = 8631)]
     port: u16,
-    /// Address to listen on, for others to reach; asks for the token in the address
+    /// Address to listen on, so that others can reach it; they then need the token in the printed address
     #[arg(long, value_name = "ADDRESS")]
     host: Option<IpAddr>,
     /// The folder of the built page [default: target/page, or page beside this program]
@@ -146,7 +146,7 @@ fn lists(clips: PathBuf, args: &ServeArgs, quiet: bool) -> Arc<Lists> {
             said.clone_from(&list.shortage);
             if let Some(shortage) = said.as_ref().filter(|_| !quiet) {
                 console::warning(&format!(
-                    "{}: {shortage}; serve a folder further down for the others",
+                    "{}: {shortage}; serve a subfolder to see the others",
                     clips.display()
                 ));
             }

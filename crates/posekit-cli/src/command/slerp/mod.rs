@@ -33,7 +33,7 @@ pub(crate) struct SlerpArgs {
         required_unless_present = "preset"
     )]
     end: Option<String>,
-    /// Two orientations that show something
+    /// Two orientations chosen to show something
     #[arg(long, value_name = "NAME", conflicts_with_all = ["start", "end"], value_parser = preset_arg())]
     preset: Option<Preset>,
     /// The order of the angles that are given
@@ -88,16 +88,14 @@ pub(crate) fn run(args: &SlerpArgs) -> Result<(), Failure> {
 
 fn ends(args: &SlerpArgs) -> Result<Ends, Failure> {
     if !args.order.is_complete() {
-        return Err(Failure::usage("--order takes three axes, as ZXY"));
+        return Err(Failure::usage("--order takes three axes, such as ZXY"));
     }
     let read = |text: &String| orientation::read(text, args.order);
     let mut ends = match (args.preset, &args.start, &args.end) {
         (Some(preset), ..) => preset.ends(),
         (None, Some(start), Some(end)) => Ends::new(read(start)?, read(end)?),
         _ => {
-            return Err(Failure::usage(
-                "two orientations, or a --preset, are needed",
-            ));
+            return Err(Failure::usage("expected two orientations or a --preset"));
         }
     };
     if let Some(before) = &args.before {

@@ -9,7 +9,7 @@ use crate::failure::Failure;
 pub(super) fn read(text: &str, order: EulerOrder) -> Result<DQuat, Failure> {
     let wrong = || {
         Failure::usage(format!("'{text}' is not an orientation"))
-            .try_next("three angles in degrees as 10,0,-45, or a quaternion x,y,z,w")
+            .try_next("write three angles in degrees, such as 10,0,-45, or a quaternion x,y,z,w")
     };
     let numbers: Vec<f64> = text
         .split(',')

@@ -67,14 +67,14 @@ pub enum EditError {
     FrameTime(#[from] FrameTimeError),
     /// The motion has no frame time to tell its rate from.
     #[error(
-        "the file has no frame time that could be, so its frame rate is unknown: set one with --frame-time"
+        "the file has no usable frame time, so its frame rate is unknown: set one with --frame-time"
     )]
     NoFrameTime,
     /// The document has no motion.
     #[error("has no motion")]
     NoMotion,
     /// A range of frames has no frame in it.
-    #[error("frames {start}..{end} of {frame_count} are none")]
+    #[error("there are no frames {start}..{end} among {frame_count}")]
     EmptyTrim {
         /// First frame.
         start: usize,
@@ -98,7 +98,7 @@ pub enum EditError {
         name: String,
     },
     /// A new name has more stars than the pattern of the old one.
-    #[error("'{to}' has more stars than '{from}', so some stand for nothing")]
+    #[error("'{to}' has more asterisks than '{from}'")]
     TooManyStars {
         /// The pattern of the old name.
         from: String,
@@ -126,6 +126,6 @@ pub enum EditError {
         what: &'static str,
     },
     /// A rotation order that does not name each axis once.
-    #[error("a rotation order names X, Y and Z once each, as ZXY")]
+    #[error("a rotation order names X, Y and Z once each, such as ZXY")]
     IncompleteOrder,
 }

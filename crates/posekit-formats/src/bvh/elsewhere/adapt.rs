@@ -1,4 +1,4 @@
-//! A document changed so that a program reads it right.
+//! A document changed so that a program reads it correctly.
 
 use posekit::motion::Channel;
 use posekit::rotation::{Axis, EulerOrder};

@@ -235,7 +235,7 @@ fn take_gaps(values: &mut [f64], channel_count: usize, gaps: &mut Vec<Gap>) {
 pub(super) fn warn_out_of_range(scanner: &mut Scanner<'_>, at: usize, value: f64) {
     scanner.warn(WarningCode::ValueOutOfRange, at, || {
         format!(
-            "a value of {value:?}, which is not within {LONGEST_LENGTH:e}, kept as the file says: no motion can be made of it"
+            "a value of {value:?}, which is not within {LONGEST_LENGTH:e}, kept as the file says: too large for a motion"
         )
     });
 }
@@ -255,7 +255,9 @@ fn finish(scanner: &mut Scanner<'_>, rows: Rows, header: &MotionHeader) -> Vec<f
     let channels = rows.channel_count;
     for &at in &rows.damaged_at {
         scanner.warn(WarningCode::DamagedRow, at, || {
-            format!("values that make no row of {channels}, dropped to keep the others in step")
+            format!(
+                "values that do not make up a row of {channels}, dropped to keep the others in step"
+            )
         });
     }
     let mut values = rows.values;

@@ -77,7 +77,7 @@ fn read_frame_count(scanner: &mut Scanner<'_>) -> Result<(usize, Option<usize>),
     let count = whole(number);
     if count.is_none() {
         scanner.warn(WarningCode::MissingFrameCount, at, || {
-            format!("{number} frames make no sense, the rows are counted")
+            format!("{number} is no possible number of frames, the rows are counted")
         });
     }
     Ok((at, count))

@@ -153,7 +153,7 @@ pub(super) fn read_mimic(
 pub(super) fn warn_of_mimic(name: &str, at: usize, why: &str, reporter: &mut Reporter<'_>) {
     reporter.warn(WarningCode::BrokenMimic, at, || {
         let name = quote(name.as_bytes());
-        format!("joint {name} mimics {why}; it keeps a value of its own")
+        format!("joint {name} mimics {why}; it keeps its own value")
     });
 }
 

@@ -62,7 +62,7 @@ fn text<'a>(bytes: &'a [u8], reporter: &mut Reporter<'_>) -> Result<&'a str, Rea
     }
     std::str::from_utf8(bytes).map_err(|error| {
         let at = error.valid_up_to();
-        let found = "a byte that is none";
+        let found = "a byte that is not";
         reporter.error(ReadErrorKind::NotText, at, "UTF-8 text", found)
     })
 }

@@ -98,7 +98,7 @@ pub(super) fn origin(
     let xyz = numbers(origin, "xyz", reporter)?.unwrap_or_default();
     if let Some(value) = xyz.iter().find(|value| value.abs() > LONGEST_LENGTH) {
         reporter.warn(WarningCode::ValueOutOfRange, origin.at(), || {
-            format!("an origin {value:?} away, which is not within {LONGEST_LENGTH:e}, kept as the file says: no robot can be made of it")
+            format!("an origin {value:?} away, which is not within {LONGEST_LENGTH:e}, kept as the file says: too large for a robot")
         });
     }
     Ok(UrdfOrigin {

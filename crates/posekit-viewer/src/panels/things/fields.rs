@@ -66,7 +66,7 @@ fn mesh_note(ui: &mut Ui, session: &Session, owner: Owner) {
     let scene = session.authored().map(Authored::scene);
     let shape = scene.and_then(|scene| scene.props.get(index).map(|prop| &prop.shape));
     if let Some(file) = shape.filter(|shape| !is_simple_shape(shape)) {
-        let says = format!("Mesh files are not read yet: a box stands for {file}");
+        let says = format!("Mesh files cannot be read yet: a box is shown in place of {file}");
         row::empty_note(ui, &says);
     }
 }

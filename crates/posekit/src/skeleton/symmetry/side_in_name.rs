@@ -18,7 +18,7 @@ pub(super) enum Strength {
     Word,
     /// A letter of its own: `L_Hip`, `hand.l`, `Bip01 R Thigh`, `lHip`, `RThumb`, `FootL`.
     Letter,
-    /// A word at the start or the end of another one: `leftarm`, `footright`.
+    /// A word at the start or the end of another one: `leftarm`, `footright`, `左足`.
     GluedWord,
     /// A letter at the start of a word: `lfemur`, `RHUMERUS`. Acclaim files write sides like this.
     GluedLetter,
@@ -46,18 +46,23 @@ pub(super) fn readings(name: &str, strength: Strength) -> Vec<(Side, String)> {
 /// The side in a word at this strength, and the bytes of the word that say it.
 fn side_of_word(word: &str, strength: Strength) -> Option<(Side, usize, usize)> {
     let lower = word.to_ascii_lowercase();
-    let sides = [(Side::Left, "left", "l"), (Side::Right, "right", "r")];
+    let sides = [
+        (Side::Left, "left", "l"),
+        (Side::Right, "right", "r"),
+        (Side::Left, "左", "左"),
+        (Side::Right, "右", "右"),
+    ];
     sides.into_iter().find_map(|(side, long, short)| {
         let (from, to) = match strength {
             Strength::Word => (lower == long).then_some((0, long.len())),
-            Strength::Letter => (lower == short).then_some((0, 1)),
+            Strength::Letter => (lower == short).then_some((0, short.len())),
             Strength::GluedWord if lower.len() <= long.len() => None,
             Strength::GluedWord if lower.starts_with(long) => Some((0, long.len())),
             Strength::GluedWord => lower
                 .ends_with(long)
                 .then_some((lower.len() - long.len(), lower.len())),
             Strength::GluedLetter => {
-                (lower.len() > 1 && lower.starts_with(short)).then_some((0, 1))
+                (lower.len() > short.len() && lower.starts_with(short)).then_some((0, short.len()))
             }
         }?;
         Some((side, from, to))
@@ -133,6 +138,7 @@ mod tests {
             ("ring_04_leaf_l", "ring_04_leaf_r", Strength::Letter),
             ("leftfoot", "rightfoot", Strength::GluedWord),
             ("armleft", "armright", Strength::GluedWord),
+            ("左足", "右足", Strength::GluedWord),
             ("lfemur", "rfemur", Strength::GluedLetter),
         ];
         for (left, right, strength) in pairs {

@@ -138,8 +138,7 @@ fn write_targets(document: &mut Document, numbers: Numbers<'_>) {
     }
     document.blocks.push(Block::List(points));
     document.paragraph(
-        "Targets out of reach count in no success: for them the report says apart how near the solvers come to the nearest \
-         place that there is.",
+        "Targets out of reach are left out of every success rate: for them the report says separately how near the solvers come to the nearest place that there is.",
     );
 }
 

@@ -103,7 +103,7 @@ fn place_sentence(numbers: Numbers<'_>) -> Option<String> {
         each.push(format!("{name} {} and {}", percent(near), percent(far)));
     }
     Some(format!(
-        "**Place.** A target that nearly stretches the chain is another task than one at ease. Reached in {}, first of the \
+        "**Place.** A target that nearly stretches the chain is a different task from one well within reach. Reached in {}, first of the \
          targets nearer than 75 % of the reach, then of those beyond 90 %: {}.",
         counted(study.shown_count() as usize, "iteration"),
         each.join("; ")
@@ -122,8 +122,7 @@ fn out_of_reach_sentence(numbers: Numbers<'_>) -> Option<String> {
     let rule = "Where the target is too far, the best that can be done is a chain stretched straight towards it";
     if least <= best {
         return Some(format!(
-            "**Out of reach.** {rule}; within the tolerance every solver comes that near in {} of these cases in {after}. They \
-             do not count in any success.",
+            "**Out of reach.** {rule}; every solver comes that near, within the tolerance, in {} of these cases in {after}. They are left out of every success rate.",
             percent(-best)
         ));
     }
@@ -134,8 +133,7 @@ fn out_of_reach_sentence(numbers: Numbers<'_>) -> Option<String> {
         .map(|&(method, _)| numbers.name(method))
         .collect();
     Some(format!(
-        "**Out of reach.** {rule}. In {after} {} {} within the tolerance of that in {} of these cases, {} in {}. They do not count \
-         in any success.",
+        "**Out of reach.** {rule}. In {after} {} {} within the tolerance of that in {} of these cases, {} in {}. They are left out of every success rate.",
         listed(&leaders),
         agree(leaders.len(), "comes", "come"),
         percent(-best),

@@ -123,7 +123,7 @@ fn out_of_reach_table(document: &mut Document, numbers: Numbers<'_>) {
     mark_best(&mut rows, 2, &middle, true);
     document.blocks.push(Block::Table(Table {
         caption: format!(
-            "The {} out of reach of {}, which count in no success: the share for which the end came within the tolerance of the nearest \
+            "The {} out of reach of {}, which are left out of every success rate: the share for which the end came within the tolerance of the nearest \
              place that there is after {}, and the median miss, which is how much farther from the target it stayed than it has to.",
             counted(count, "target"),
             code(&chain.name),

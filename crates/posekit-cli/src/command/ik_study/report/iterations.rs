@@ -104,8 +104,7 @@ fn write_named(document: &mut Document, numbers: Numbers<'_>, target: usize) {
     document.blocks.push(Block::Drawing {
         svg,
         caption: format!(
-            "Residual at the target {} against iterations, both axes logarithmic. Curves end at {:.0e}: rounding in double \
-             precision leaves no less.",
+            "Residual at the target {} against iterations, both axes logarithmic. Curves end at {:.0e}: rounding in double precision allows no less.",
             code(name),
             super::ROUNDING
         ),
@@ -131,9 +130,9 @@ fn arrivals_sentence(numbers: Numbers<'_>, target: usize) -> String {
             .map(|method| numbers.name(method))
             .collect();
         return format!(
-            "In {} as near as the target can be come to, within the tolerance of {}: {}.",
-            counted(study.last_count() as usize, "iteration"),
+            "As near to the target as possible, within the tolerance of {}, in {}: {}.",
             scientific(chain.tolerance),
+            counted(study.last_count() as usize, "iteration"),
             if nearest.is_empty() {
                 "no solver".to_owned()
             } else {

@@ -223,7 +223,7 @@ pub(super) fn write(document: &mut Document, numbers: Numbers<'_>) {
     };
     document.paragraph(format!(
         "No single number makes a solver the best, so the ranking follows a rule. It counts the {} of all chains. Each of {} gives \
-         every solver a place: **success**, the share of the targets that it comes to within the tolerance in {last} iterations or \
+         every solver a place: **success**, the share of the targets that it reaches within the tolerance in {last} iterations or \
          fewer; {time}the median **joint motion** until then; and **smoothness**, the mean roughness behind the two moving \
          targets. Success is a tie up to a difference of one percentage point. {what} a difference of up to 10 % is a tie, and \
          the medians are taken over the targets that all ranked solvers reach. The sum of the places makes the rank, the \
@@ -327,11 +327,10 @@ fn conclusion(numbers: Numbers<'_>, standings: &[Standing]) -> String {
     let last = study.last_count();
     let mut text = match winners.as_slice() {
         [] => format!(
-            "No solver came to any of the {judged} in {last} iterations, so none is recommended."
+            "No solver reached any of the {judged} in {last} iterations, so none is recommended."
         ),
         [one] => format!(
-            "For one end and one target, take {} ({}): it ranks first by success, {}joint motion and smoothness together, and \
-             comes to {} of the {judged} in {last} iterations or fewer.",
+            "For one end and one target, take {} ({}): it ranks first by success, {}joint motion and smoothness together, and reaches {} of the {judged} in {last} iterations or fewer.",
             name(*one),
             study.methods[*one].facts().full_name,
             if study.has_times { "time, " } else { "" },
@@ -380,7 +379,7 @@ fn conclusion(numbers: Numbers<'_>, standings: &[Standing]) -> String {
     }
     text.push_str(
         " This holds for this figure, without limits on its joints and from this start pose. With limits, with several \
-         targets, or from another pose (`--frame`) the order may be another.",
+         targets, or from another pose (`--frame`) the order may be different.",
     );
     text
 }

@@ -251,13 +251,13 @@ fn time_sentence(numbers: Numbers<'_>) -> Option<String> {
     let (&(first, least), &(last, most)) = (list.first()?, list.last()?);
     if first == last {
         return Some(format!(
-            "**Time.** {} comes to a target in {} (median, on the machine that wrote this).",
+            "**Time.** {} reaches a target in {} (median, on the machine that wrote this).",
             numbers.name(first),
             micros(least)
         ));
     }
     Some(format!(
-        "**Time.** Of the solvers that come to at least half of these targets, {} takes the least time, {} in the median, and {} \
+        "**Time.** Of the solvers that reach at least half of these targets, {} takes the least time, {} in the median, and {} \
          the most, {} (on the machine that wrote this).",
         numbers.name(first),
         micros(least),

@@ -53,7 +53,7 @@ pub(super) fn write(document: &mut Document, numbers: Numbers<'_>) {
         .collect();
     document.blocks.push(Block::Pictures(PictureTable {
         caption: format!(
-            "The worst run of each solver: the one that stays farthest from its target, measured by the reach of its chain, after {}, of \
+            "The worst run of each solver: the one that stays farthest from its target, as a share of the reach of its chain, after {}, of \
              all {} of all chains.",
             counted(study.counts[numbers.last()] as usize, "iteration"),
             judged_words(study)
