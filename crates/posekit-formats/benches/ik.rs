@@ -154,6 +154,8 @@ fn add_peer(table: &mut Table<'_>, points: &[DVec3], reach: f64) {
     let points: Vec<rebirth_ik::Vec3> = points.iter().copied().map(narrow).collect();
     let mut lengths = vec![0.0; points.len() - 1];
     rebirth_ik::segment_lengths(&points, &mut lengths);
+    #[expect(clippy::cast_possible_truncation, reason = "the peer counts in f32")]
+    let tolerance = (1e-4 * reach) as f32;
     let mut moving = points.clone();
     table.reference("rebirth-ik on points to 1e-4 of reach, f32", 1, move || {
         moving.copy_from_slice(&points);
@@ -162,7 +164,7 @@ fn add_peer(table: &mut Table<'_>, points: &[DVec3], reach: f64) {
             &lengths,
             narrow(black_box(TARGET)),
             100,
-            (1e-4 * reach) as f32,
+            tolerance,
         ));
     });
 }

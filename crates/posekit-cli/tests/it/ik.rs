@@ -1,6 +1,6 @@
 //! `posekit ik` as a user runs it.
 
-use crate::harness::{Folder, json, real_data};
+use crate::harness::{Folder, json};
 
 /// The rows of a BVH file, number by number, as text.
 fn rows(text: &str) -> Vec<Vec<String>> {

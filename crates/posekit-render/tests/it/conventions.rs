@@ -95,7 +95,8 @@ fn conventions_are_drawn_side_by_side() {
 
 fn side_by_side(conventions: &[Convention], frame: usize, view: View) -> Image {
     let (width, height) = (200, 340);
-    let mut whole = Image::new(width * conventions.len() as u32, height);
+    let count = u32::try_from(conventions.len()).unwrap();
+    let mut whole = Image::new(width * count, height);
     for (place, convention) in (0..).zip(conventions) {
         let options = StageOptions {
             camera: CameraChoice::View(view),

@@ -14,6 +14,7 @@ use crate::panels::sides::Side;
 use crate::picture::painter::thread_count;
 use crate::picture::to_color_image;
 use crate::state::clip::Source;
+use crate::state::mode::Mode;
 use crate::state::notices::NoticeKind;
 use crate::state::session::ClipId;
 use crate::theme;
@@ -33,6 +34,10 @@ impl Viewer {
         }
         if self.run_in_animate(ctx, command) {
             return;
+        }
+        if command == Command::Mode(Mode::Animate) && !self.has_room_below {
+            // What it begins with, and its timeline, are where the side is.
+            (self.layout.left, self.layout.right) = (false, false);
         }
         if command::apply(command, &mut self.session) {
             if command == Command::ToggleLook {

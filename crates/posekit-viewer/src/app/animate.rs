@@ -5,6 +5,7 @@ use std::sync::Arc;
 use egui::{Event, Frame, Key, Margin, Modifiers, Panel, Ui};
 
 use super::Viewer;
+use super::layout::LOWEST_BELOW;
 use crate::command::{Command, KeysCommand, Place};
 use crate::panels::{Asked, timeline};
 use crate::state::animate::{self, Authored, Start};
@@ -20,7 +21,7 @@ impl Viewer {
             self.timeline.hide();
             return;
         }
-        let most = (ui.available_height() - 180.0).max(140.0);
+        let most = self.room_below(ui).max(LOWEST_BELOW);
         Panel::bottom("timeline")
             .frame(
                 Frame::NONE
@@ -29,7 +30,7 @@ impl Viewer {
             )
             .resizable(true)
             .default_size(246.0)
-            .size_range(120.0..=most)
+            .size_range(LOWEST_BELOW..=most)
             .show(ui, |ui| {
                 timeline::show(ui, &mut self.session, &mut self.timeline, asked);
             });

@@ -36,8 +36,8 @@ impl Viewer {
             &mut self.interpolation_panel,
             &mut self.painter,
         );
-        let view = interpolation::show(ui, parts, (sides, look), asked);
-        self.show_over_view(ui, view, asked);
+        let (view, free) = interpolation::show(ui, parts, (sides, look), asked);
+        self.show_over_view(ui, (view, free), asked);
     }
 
     /// Moves the lab's clock by what passed. False while it stands.

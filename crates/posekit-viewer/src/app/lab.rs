@@ -21,8 +21,8 @@ impl Viewer {
         let sides = self.sides;
         let look = self.session.look();
         let parts = (&mut self.lab, &mut self.lab_panel, &mut self.painter);
-        let view = arm_lab::show(ui, parts, (sides, look), asked);
-        self.show_over_view(ui, view, asked);
+        let (view, free) = arm_lab::show(ui, parts, (sides, look), asked);
+        self.show_over_view(ui, (view, free), asked);
     }
 
     /// Puts a robot that was read on the bench, and goes there.

@@ -4,6 +4,7 @@ use egui::{CentralPanel, Color32, Frame, Key, Margin, Panel, Rect, RichText, Ui,
 use posekit::rotation::Axis;
 
 use super::Viewer;
+use super::poses::Left;
 use crate::command::{self, Command, Place};
 use crate::load::Job;
 use crate::panels::inspector::Checking;
@@ -16,6 +17,16 @@ use crate::theme::{self, Palette};
 /// Beside a text the figure has at least this width, and the text that one.
 const VIEW_LEAST: f32 = 240.0;
 const TEXT_LEAST: f32 = 240.0;
+
+/// What is below the view is never lower than this.
+pub(super) const LOWEST_BELOW: f32 = 120.0;
+
+/// What is above it is never lower than this: the view, and the view with a side beside it.
+const VIEW_LOWEST: f32 = 130.0;
+const SIDE_LOWEST: f32 = 190.0;
+
+/// The clips and the joints stand over each other where there is this much room, and take turns otherwise.
+const CLIPS_AND_JOINTS: f32 = 400.0;
 
 /// The joint tree is never lower than this.
 const JOINTS_LEAST: f32 = 230.0;
@@ -104,30 +115,35 @@ impl Viewer {
             .show(ui, |ui| {
                 self.places.time_line = transport::show(ui, &mut self.session, asked);
             });
-        // Under the view there is room for one thing.
-        if sides.is_under_view() {
-            self.timeline.hide();
-        } else {
+        // Where there is room for one thing it is the side.
+        self.has_room_below = !sides.is_under_view() && self.room_below(ui) >= LOWEST_BELOW;
+        if self.has_room_below {
             self.show_timeline(ui, asked);
+        } else {
+            self.timeline.hide();
         }
-        if self.layout.curves && !sides.is_under_view() {
+        let is_narrow = sides.room != Room::Wide;
+        let has_text_below = self.layout.text && is_narrow;
+        let text_least = if has_text_below { LOWEST_BELOW } else { 0.0 };
+        let most = self.room_below(ui) - text_least;
+        if self.layout.curves && self.has_room_below && most >= LOWEST_BELOW {
             Panel::bottom("curves")
                 .frame(panel.inner_margin(Margin::symmetric(8, 6)))
                 .resizable(true)
                 .default_size(190.0)
-                .size_range(120.0..=480.0)
+                .size_range(LOWEST_BELOW..=most.min(480.0))
                 .show(ui, |ui| {
                     curves::show(ui, &mut self.session, &mut self.curves)
                 });
         }
         self.places.text = text::TextPlaces::NONE;
-        let is_narrow = sides.room != Room::Wide;
-        if self.layout.text && is_narrow && !sides.is_under_view() {
+        let most = self.room_below(ui);
+        if has_text_below && self.has_room_below && most >= LOWEST_BELOW {
             Panel::bottom("text below")
                 .frame(panel.inner_margin(Margin::symmetric(8, 6)))
                 .resizable(true)
                 .default_size(220.0)
-                .size_range(120.0..=480.0)
+                .size_range(LOWEST_BELOW..=most.min(480.0))
                 .show(ui, |ui| self.show_text(ui, asked));
         }
         if sides.left {
@@ -161,9 +177,21 @@ impl Viewer {
         CentralPanel::no_frame().show(ui, |ui| {
             let rect = ui.available_rect_before_wrap();
             self.places.view = rect;
-            view::show(ui, &mut self.session, &mut self.painter, asked);
-            self.show_over_view(ui, rect, asked);
+            let below = if self.has_room_below {
+                view::Below::Mode
+            } else {
+                view::Below::Side
+            };
+            let free = view::show(ui, &mut self.session, &mut self.painter, below, asked);
+            self.show_over_view(ui, (rect, free), asked);
         });
+    }
+
+    /// How high what is below the view may be.
+    pub(super) fn room_below(&self, ui: &Ui) -> f32 {
+        let has_side = self.sides.left || self.sides.right;
+        let above = if has_side { SIDE_LOWEST } else { VIEW_LOWEST };
+        ui.available_height() - above
     }
 
     /// Shows the text of the active clip's file, which is made ready when it is not.
@@ -190,34 +218,42 @@ impl Viewer {
     }
 
     fn show_left(&mut self, ui: &mut Ui, asked: &mut Asked) {
-        if self.show_clips_or_poses(ui) {
-            self.show_poses(ui);
-            return;
+        let is_low = ui.available_height() < CLIPS_AND_JOINTS;
+        match self.choose_left(ui, is_low) {
+            Left::Poses => self.show_poses(ui),
+            Left::Clips => self.show_clips(ui, asked),
+            Left::Joints => drop(joints::show(ui, &mut self.session, &mut self.tree)),
+            Left::ClipsAndJoints => {
+                let least = JOINTS_LEAST.min(0.5 * ui.available_height());
+                Panel::bottom("joints")
+                    .frame(Frame::NONE)
+                    .resizable(true)
+                    .default_size(330.0)
+                    .size_range(least..=(ui.available_height() - 160.0).max(least))
+                    .show(ui, |ui| {
+                        ui.add_space(4.0);
+                        joints::show(ui, &mut self.session, &mut self.tree);
+                    });
+                CentralPanel::no_frame().show(ui, |ui| self.show_clips(ui, asked));
+            }
         }
-        let least = JOINTS_LEAST.min(0.5 * ui.available_height());
-        Panel::bottom("joints")
-            .frame(Frame::NONE)
-            .resizable(true)
-            .default_size(330.0)
-            .size_range(least..=(ui.available_height() - 160.0).max(least))
-            .show(ui, |ui| {
-                ui.add_space(4.0);
-                joints::show(ui, &mut self.session, &mut self.tree);
-            });
-        CentralPanel::no_frame().show(ui, |ui| {
-            library::show(
-                ui,
-                &self.session,
-                &mut self.library,
-                &self.pictures,
-                self.loader.jobs(),
-                asked,
-            );
-        });
     }
 
-    pub(super) fn show_over_view(&mut self, ui: &Ui, rect: Rect, asked: &mut Asked) {
-        if notices::show(ui, rect, &mut self.notices, asked) {
+    fn show_clips(&mut self, ui: &mut Ui, asked: &mut Asked) {
+        library::show(
+            ui,
+            &self.session,
+            &mut self.library,
+            &self.pictures,
+            self.loader.jobs(),
+            asked,
+        );
+    }
+
+    /// Shows what lies over the view; `free` is where the room under its tools begins.
+    pub(super) fn show_over_view(&mut self, ui: &Ui, (rect, free): (Rect, f32), asked: &mut Asked) {
+        let below_tools = rect.with_min_y(free.min(rect.bottom()));
+        if notices::show(ui, below_tools, &mut self.notices, asked) {
             asked.command(Command::ShowMessages);
         }
         let hovering = ui.input(|i| !i.raw.hovered_files.is_empty());
@@ -241,10 +277,14 @@ impl Viewer {
         }
         if is_stage && self.session.clips().is_empty() && self.loader.jobs().is_empty() && !hovering
         {
-            let text = RichText::new("Drop a BVH file or a scene here, or open one with Ctrl+O")
-                .size(15.0);
-            let place = Rect::from_center_size(rect.center(), Vec2::new(400.0, 30.0));
-            row::text_in(ui, place, text, palette.quiet);
+            let text = "Drop a BVH file or a scene here, or open one with Ctrl+O";
+            let font = egui::FontId::proportional(15.0);
+            let room = (rect.width() - 32.0).max(60.0);
+            let mut job = egui::text::LayoutJob::simple(text.to_owned(), font, palette.quiet, room);
+            job.halign = egui::Align::Center;
+            let galley = ui.painter().layout_job(job);
+            let at = rect.center() - Vec2::new(0.0, galley.size().y / 2.0);
+            ui.painter().galley(at, galley, palette.quiet);
         }
     }
 

@@ -109,6 +109,10 @@ pub struct Viewer {
     layout: WindowLayout,
     /// The sides that the window shows, as it was drawn last.
     sides: Sides,
+    /// Whether there is room for something below the view.
+    has_room_below: bool,
+    /// At the left the joints, where there is no room for them beside the clips.
+    shows_joints: bool,
     help_open: bool,
     help_search: String,
     messages_open: bool,
@@ -180,6 +184,8 @@ impl Viewer {
             notices: Notices::default(),
             layout: settings.layout,
             sides: Sides::default(),
+            has_room_below: true,
+            shows_joints: false,
             help_open: false,
             help_search: String::new(),
             messages_open: false,

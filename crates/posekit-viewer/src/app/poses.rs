@@ -17,6 +17,15 @@ const POSES_KEY: &str = "posekit poses";
 /// Under this name a kept text stays that could not be read, so that nothing is lost.
 const UNREADABLE_KEY: &str = "posekit poses, not read";
 
+/// What the left side shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Left {
+    Clips,
+    Joints,
+    ClipsAndJoints,
+    Poses,
+}
+
 impl Viewer {
     /// Takes in the poses that were kept.
     pub(super) fn take_kept_poses(&mut self, storage: &dyn eframe::Storage) {
@@ -65,20 +74,43 @@ impl Viewer {
         true
     }
 
-    /// Shows, where poses are edited, the choice between clips and poses. True when poses are chosen.
-    pub(super) fn show_clips_or_poses(&mut self, ui: &mut Ui) -> bool {
-        if !self.session.mode().edits() {
-            return false;
+    /// Offers what the left side shows: poses where they are edited, and in a low window the clips and the joints
+    /// one after the other.
+    pub(super) fn choose_left(&mut self, ui: &mut Ui, is_low: bool) -> Left {
+        let mut offered = vec![if is_low {
+            (
+                Left::Clips,
+                ("Clips", "The clips that are open, and those of the folder"),
+            )
+        } else {
+            (
+                Left::ClipsAndJoints,
+                ("Clips", "The clips that are open, and the joints"),
+            )
+        }];
+        if is_low {
+            offered.push((Left::Joints, ("Joints", "The joints of the active clip")));
         }
-        row::well(ui, |ui| {
-            for (name, poses) in [("Clips", false), ("Poses", true)] {
-                if row::segment(ui, name, self.layout.poses == poses).clicked() {
-                    self.layout.poses = poses;
-                }
+        if self.session.mode().edits() {
+            offered.push((Left::Poses, ("Poses", "The poses that are kept")));
+        }
+        let place_of = |wanted: Left| offered.iter().position(|(left, _)| *left == wanted);
+        let wanted = match (self.layout.poses, self.shows_joints) {
+            (true, _) => Left::Poses,
+            (false, true) => Left::Joints,
+            (false, false) => offered[0].0,
+        };
+        let now = place_of(wanted).unwrap_or(0);
+        if offered.len() > 1 {
+            let options: Vec<(&str, &str)> = offered.iter().map(|(_, option)| *option).collect();
+            let room = ui.available_width();
+            if let Some(index) = row::one_of(ui, "left", room, Some(now), &options) {
+                self.layout.poses = offered[index].0 == Left::Poses;
+                self.shows_joints = offered[index].0 == Left::Joints;
             }
-        });
-        ui.add_space(GAP);
-        self.layout.poses
+            ui.add_space(GAP);
+        }
+        offered[now].0
     }
 
     /// Shows the pose library.

@@ -42,15 +42,25 @@ pub fn show(ui: &mut Ui, session: &mut Session, panel: &mut CurvePanel) {
         row::empty_note(ui, "Open a clip to see curves.");
         return;
     };
-    ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = GAP;
-        for quantity in Quantity::ALL {
-            let chosen = panel.quantity == quantity;
-            if ui.selectable_label(chosen, quantity.name()).clicked() {
-                panel.quantity = quantity;
+    let names = Quantity::ALL.map(|quantity| (quantity.name(), ""));
+    let room = ui.available_width();
+    if row::width_of(ui, names.iter().map(|(name, _)| *name)) <= room {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = GAP;
+            for quantity in Quantity::ALL {
+                let chosen = panel.quantity == quantity;
+                if ui.selectable_label(chosen, quantity.name()).clicked() {
+                    panel.quantity = quantity;
+                }
             }
+        });
+    } else {
+        let mut quantities = Quantity::ALL.iter();
+        let now = quantities.position(|quantity| *quantity == panel.quantity);
+        if let Some(index) = row::one_of(ui, "curves of", room, now, &names) {
+            panel.quantity = Quantity::ALL[index];
         }
-    });
+    }
     panel.update(session, id, &clip);
     if panel.curves.is_empty() {
         let text = if session.selection().is_empty() {
@@ -69,14 +79,14 @@ fn plot(ui: &mut Ui, session: &mut Session, panel: &CurvePanel) {
     let unit = panel.quantity.unit();
     let duration = session.transport.duration_secs();
     let now = session.transport.time_secs();
-    let plot = Plot::new("curves")
-        .height(ui.available_height().max(60.0))
+    let height = ui.available_height().max(60.0);
+    let mut plot = Plot::new("curves")
+        .height(height)
         .show_axes(Vec2b::TRUE)
         .show_background(false)
         .show_grid(Vec2b::TRUE)
         .grid_color(palette.line)
         .set_margin_fraction(egui::vec2(0.0, 0.08))
-        .legend(Legend::default().background_alpha(0.7))
         .allow_drag(false)
         .allow_scroll(false)
         .allow_boxed_zoom(false)
@@ -88,6 +98,9 @@ fn plot(ui: &mut Ui, session: &mut Session, panel: &CurvePanel) {
         .include_x(0.0)
         .include_x(duration)
         .sense(egui::Sense::click_and_drag());
+    if super::row::legend_fits(panel.curves.len(), height) {
+        plot = plot.legend(Legend::default().background_alpha(0.7));
+    }
     let response = plot.show(ui, |plot| {
         for curve in &panel.curves {
             let color = CURVES[curve.color % CURVES.len()];

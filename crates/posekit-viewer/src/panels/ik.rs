@@ -229,7 +229,7 @@ fn steps(ui: &mut Ui, session: &mut Session, asked: &mut Asked) {
     if place != made {
         session.step_solver(|stepper| stepper.go_to(place));
     }
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 2.0;
         if icon_button(ui, Icon::ToStart, "An iteration back").clicked() {
             session.step_solver(|stepper| stepper.step_iteration(Ordering::Less));

@@ -15,13 +15,49 @@ use crate::theme::{GAP, Palette};
 const WIDTH: f32 = 460.0;
 
 /// Longer messages end in an ellipsis; the whole is in the list of all.
-const MOST_LINES: usize = 3;
+const MOST_LINES: u8 = 3;
 
 /// What lies under the notices at the bottom of the view: the line that says what the pointer does.
 const HINT_ROOM: f32 = 40.0;
 
-/// Shows the notices at the bottom of a part of the window, over the line that says what the pointer does: what
-/// is at its top can be clicked. True when all are asked for.
+/// What lies beside and around the text of a card.
+const CARD: Vec2 = vec2(22.0, 12.0);
+
+/// A line of text is about as high as this.
+const LINE: f32 = 18.0;
+
+/// How many of the newest messages are shown, and how many lines of each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Shown {
+    count: u8,
+    lines: u8,
+}
+
+impl Shown {
+    /// As much as has its place in so much height: of `most` messages, each with something to press that is
+    /// `row` high, with a card more where some came earlier. One is shown always.
+    fn within(height: f32, most: u8, has_earlier: bool, row: f32) -> Self {
+        let card = |lines: u8| (f32::from(lines) * LINE).max(row) + CARD.y + GAP;
+        let fits = |shown: Self| {
+            let cards = f32::from(shown.count) * card(shown.lines);
+            let earlier = if has_earlier || shown.count < most {
+                card(1)
+            } else {
+                0.0
+            };
+            cards + earlier <= height
+        };
+        let all = (1..=MOST_LINES)
+            .rev()
+            .map(|lines| Self { count: most, lines });
+        let fewer = (1..most).rev().map(|count| Self { count, lines: 1 });
+        let one = Self { count: 1, lines: 1 };
+        all.chain(fewer).find(|shown| fits(*shown)).unwrap_or(one)
+    }
+}
+
+/// Shows the notices at the bottom of a part of the window in which nothing is to be pressed, over the line that
+/// says what the pointer does. True when all are asked for.
 pub fn show(ui: &Ui, over: egui::Rect, notices: &mut Notices, asked: &mut Asked) -> bool {
     if notices.shown().is_empty() {
         return false;
@@ -32,17 +68,24 @@ pub fn show(ui: &Ui, over: egui::Rect, notices: &mut Notices, asked: &mut Asked)
     if width < 120.0 {
         return false;
     }
+    let row = ui.spacing().interact_size.y;
+    let most = u8::try_from(notices.shown().len()).unwrap_or(u8::MAX);
+    let unseen = notices.unseen();
+    // In a low view the line of the pointer gives its room.
+    let hint = HINT_ROOM.min(0.2 * over.height());
+    let shown = Shown::within(over.height() - hint, most, unseen > 0, row);
+    let first = usize::from(most - shown.count);
+    let earlier = unseen + first;
     egui::Area::new(egui::Id::unique("notices"))
         .order(egui::Order::Middle)
         .pivot(Align2::CENTER_BOTTOM)
-        .fixed_pos(over.center_bottom() - Vec2::new(0.0, HINT_ROOM))
+        .fixed_pos(over.center_bottom() - Vec2::new(0.0, hint))
         .constrain_to(over)
         .show(ui.ctx(), |ui| {
             ui.spacing_mut().item_spacing.y = GAP;
             ui.set_width(width);
-            let unseen = notices.unseen();
-            if unseen > 0 {
-                let text = match unseen {
+            if earlier > 0 {
+                let text = match earlier {
                     1 => "1 earlier message: show all".to_owned(),
                     count => format!("{count} earlier messages: show all"),
                 };
@@ -51,9 +94,9 @@ pub fn show(ui: &Ui, over: egui::Rect, notices: &mut Notices, asked: &mut Asked)
                     wants_all = link.clicked();
                 });
             }
-            for (index, notice) in notices.shown().iter().enumerate() {
+            for (index, notice) in notices.shown().iter().enumerate().skip(first) {
                 card(ui, width, |ui| {
-                    if message(ui, notice, asked) {
+                    if message(ui, notice, shown.lines, asked) {
                         dismissed = Some(index);
                     }
                 });
@@ -76,13 +119,13 @@ fn card(ui: &mut Ui, width: f32, contents: impl FnOnce(&mut Ui)) {
         .corner_radius(8)
         .inner_margin(Margin::symmetric(10, 6))
         .show(ui, |ui| {
-            ui.set_width(width - 22.0);
+            ui.set_width(width - CARD.x);
             ui.horizontal(contents);
         });
 }
 
 /// A message with what can be done about it. True when it is dismissed.
-fn message(ui: &mut Ui, notice: &Notice, asked: &mut Asked) -> bool {
+fn message(ui: &mut Ui, notice: &Notice, lines: u8, asked: &mut Asked) -> bool {
     let mut is_dismissed = false;
     dot(ui, notice);
     // From the right, so that what is left for the text is known.
@@ -110,7 +153,7 @@ fn message(ui: &mut Ui, notice: &Notice, asked: &mut Asked) -> bool {
             ));
             job.wrap = TextWrapping {
                 max_width: room.x,
-                max_rows: MOST_LINES,
+                max_rows: usize::from(lines),
                 ..TextWrapping::default()
             };
             let galley = ui.fonts_mut(|fonts| fonts.layout_job(job));
@@ -173,4 +216,26 @@ pub fn show_all(ctx: &egui::Context, notices: &Notices) -> bool {
         });
     });
     open && !modal.should_close()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn as_many_messages_are_shown_as_have_their_place() {
+        let within = |height, most, has_earlier| {
+            let shown = Shown::within(height, most, has_earlier, 24.0);
+            (shown.count, shown.lines)
+        };
+        assert_eq!(within(600.0, 3, true), (3, 3));
+        assert_eq!(within(600.0, 1, false), (1, 3));
+        assert_eq!(within(160.0, 3, false), (3, 1));
+        assert_eq!(within(100.0, 3, false), (1, 1));
+        assert_eq!(within(20.0, 3, true), (1, 1), "one is shown always");
+        for height in [60.0, 90.0, 120.0, 150.0, 200.0, 300.0] {
+            let (count, lines) = within(height, 3, false);
+            assert!(count >= 1 && lines >= 1 && (count == 3 || lines == 1));
+        }
+    }
 }

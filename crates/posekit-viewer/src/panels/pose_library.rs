@@ -78,12 +78,34 @@ impl PosePanel {
     }
 }
 
+/// Less height than this has no room for the list beside what is done with a pose.
+const LOW: f32 = 330.0;
+
 /// Shows the library.
 pub fn show(
     ui: &mut Ui,
     session: &mut Session,
     library: &mut PoseLibrary,
     panel: &mut PosePanel,
+) -> Option<PoseRequest> {
+    // In a low window all of it is scrolled; otherwise what is done with a pose stays in sight under the list.
+    let is_low = ui.available_height() < LOW;
+    if !is_low {
+        return contents(ui, session, library, panel, is_low);
+    }
+    ScrollArea::vertical()
+        .id_salt("all of the poses")
+        .auto_shrink([false, false])
+        .show(ui, |ui| contents(ui, session, library, panel, is_low))
+        .inner
+}
+
+fn contents(
+    ui: &mut Ui,
+    session: &mut Session,
+    library: &mut PoseLibrary,
+    panel: &mut PosePanel,
+    is_low: bool,
 ) -> Option<PoseRequest> {
     let mut asked = None;
     row::heading(ui, "Poses", |ui| {
@@ -105,16 +127,25 @@ pub fn show(
     }
     let chosen = panel.selected.filter(|id| library.get(*id).is_some());
     panel.selected = chosen;
-    let below = if chosen.is_some() { 132.0 } else { 0.0 };
-    let height = (ui.available_height() - below).max(POSE_ROW);
-    ScrollArea::vertical()
-        .id_salt("poses")
-        .auto_shrink([false, false])
-        .max_height(height)
-        .show(ui, |ui| {
-            ui.spacing_mut().item_spacing.y = 2.0;
-            list(ui, session, library, panel);
-        });
+    if is_low {
+        ui.spacing_mut().item_spacing.y = 2.0;
+        list(ui, session, library, panel);
+    } else {
+        let below = match chosen {
+            Some(_) => 3.0 * ui.spacing().interact_size.y + 15.0 * GAP,
+            None => 0.0,
+        };
+        let height = (ui.available_height() - below).max(POSE_ROW);
+        ScrollArea::vertical()
+            .id_salt("poses")
+            .auto_shrink([false, false])
+            .min_scrolled_height(POSE_ROW)
+            .max_height(height)
+            .show(ui, |ui| {
+                ui.spacing_mut().item_spacing.y = 2.0;
+                list(ui, session, library, panel);
+            });
+    }
     if let Some(id) = chosen {
         row::divider(ui);
         chosen_pose(ui, session, library, panel, id);

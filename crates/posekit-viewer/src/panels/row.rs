@@ -73,46 +73,131 @@ pub fn divider(ui: &mut Ui) {
     ui.add_space(GAP);
 }
 
-/// One of several, beside each other in one well: each a command, its name, and what it does.
+/// One of several, each a command, its name, and what it does: beside each other in one well, or in a list that
+/// opens where `room` is less than they need.
 pub fn segments(
     ui: &mut Ui,
+    room: f32,
     chosen: Command,
     options: &[(Command, &str, String)],
     asked: &mut Asked,
 ) {
-    well(ui, |ui| {
-        for (command, name, says) in options {
-            let segment = segment(ui, name, *command == chosen);
-            if segment.on_hover_text(says).clicked() {
-                asked.command(*command);
-            }
-        }
-    });
+    let named: Vec<(&str, &str)> = options
+        .iter()
+        .map(|(_, name, says)| (*name, says.as_str()))
+        .collect();
+    let now = options.iter().position(|(command, ..)| *command == chosen);
+    if let Some(index) = one_of(ui, "segments", room, now, &named) {
+        asked.command(options[index].0);
+    }
 }
 
-/// Two groups of controls: beside each other where there is room, and otherwise under each other.
-pub fn rows<C>(
+/// One of several, each a name and what it says: beside each other in one well, or in a list that opens where
+/// `room` is less than they need. Which of them was clicked.
+pub fn one_of(
     ui: &mut Ui,
-    has_room: bool,
-    context: &mut C,
-    [first, second]: [fn(&mut Ui, &mut C); 2],
-) {
-    if has_room {
-        ui.horizontal(|ui| {
-            ui.spacing_mut().item_spacing.x = GAP;
-            first(ui, context);
-            second(ui, context);
+    salt: &str,
+    room: f32,
+    chosen: Option<usize>,
+    options: &[(&str, &str)],
+) -> Option<usize> {
+    let mut clicked = None;
+    if width_of(ui, options.iter().map(|(name, _)| *name)) <= room {
+        // What is laid out from the right has the last one first.
+        let is_from_right = ui.layout().prefer_right_to_left();
+        well(ui, |ui| {
+            for place in 0..options.len() {
+                let index = if is_from_right {
+                    options.len() - 1 - place
+                } else {
+                    place
+                };
+                let (name, says) = options[index];
+                let segment = segment(ui, name, chosen == Some(index));
+                if segment.on_hover_text(says).clicked() {
+                    clicked = Some(index);
+                }
+            }
         });
-        return;
+        return clicked;
     }
+    let name = chosen.map_or("", |index| options[index].0);
+    // The longest of them, and the sign that there are others.
+    let names = options.iter().map(|(name, _)| text_width(ui, name));
+    let width = names.fold(0.0, f32::max) + 10.0 * GAP;
+    egui::ComboBox::from_id_salt(salt)
+        .selected_text(name)
+        .width(width.min(room - 2.0 * GAP).max(40.0))
+        .truncate()
+        .show_ui(ui, |ui| {
+            for (index, (name, says)) in options.iter().enumerate() {
+                let mut label = ui.selectable_label(chosen == Some(index), *name);
+                if !says.is_empty() {
+                    label = label.on_hover_text(*says);
+                }
+                if label.clicked() {
+                    clicked = Some(index);
+                }
+            }
+        });
+    clicked
+}
+
+/// The width that segments take with these names, in their well.
+#[must_use]
+pub fn width_of<'a>(ui: &Ui, names: impl Iterator<Item = &'a str>) -> f32 {
+    const BETWEEN: f32 = 2.0;
+    const WELL: f32 = 4.0;
+    let widths = names.map(|name| text_width(ui, name) + SEGMENT_MARGINS + BETWEEN);
+    widths.sum::<f32>() - BETWEEN + WELL
+}
+
+/// The width of a button's text.
+fn text_width(ui: &Ui, text: &str) -> f32 {
+    let font = egui::TextStyle::Button.resolve(ui.style());
+    let galley = ui
+        .painter()
+        .layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER);
+    galley.size().x
+}
+
+/// A group of controls: what it is shown with, and the width of a whole line.
+pub type Group<C> = fn(&mut Ui, f32, &mut C);
+
+/// Groups of controls beside each other, in as many lines as they need.
+///
+/// How wide they are is known once they were shown: where that is not as it was the picture is made again.
+pub fn lines<C>(ui: &mut Ui, context: &mut C, groups: &[Group<C>]) {
+    let id = ui.scope_id().with("lines of groups");
+    let room = ui.available_width();
+    let before: Vec<f32> = ui.data(|data| data.get_temp(id)).unwrap_or_default();
+    let width = |index: usize| before.get(index).copied().unwrap_or(0.0);
+    let mut widths = Vec::with_capacity(groups.len());
     ui.vertical(|ui| {
-        for part in [first, second] {
+        ui.spacing_mut().item_spacing.y = GAP;
+        while widths.len() < groups.len() {
+            let first = widths.len();
+            let mut end = first + 1;
+            let mut taken = width(first);
+            while end < groups.len() && taken + GAP + width(end) <= room {
+                taken += GAP + width(end);
+                end += 1;
+            }
             ui.horizontal(|ui| {
                 ui.spacing_mut().item_spacing.x = GAP;
-                part(ui, context);
+                for group in &groups[first..end] {
+                    let shown = ui.horizontal(|ui| group(ui, room, context));
+                    widths.push(shown.response.rect.width());
+                }
             });
         }
     });
+    let is_same = widths.len() == before.len()
+        && widths.iter().zip(&before).all(|(a, b)| (a - b).abs() < 0.5);
+    if !is_same {
+        ui.data_mut(|data| data.insert_temp(id, widths));
+        ui.ctx().request_discard("controls change lines");
+    }
 }
 
 /// The well that segments lie in.
@@ -171,6 +256,18 @@ pub fn undo_buttons(ui: &mut Ui, (undo, redo): (Step, Step), height: f32, asked:
     }
 }
 
+/// Whether a list of so many lines has its place in a plot of some height.
+#[must_use]
+pub fn legend_fits(lines: usize, height: f32) -> bool {
+    const LINE: f32 = 23.0;
+    // Numbers along the axis, and around the list.
+    const AROUND: f32 = 44.0;
+    lines as f32 * LINE + AROUND <= height
+}
+
+/// What a segment has beside its name.
+const SEGMENT_MARGINS: f32 = 5.0 * GAP;
+
 /// One of several beside each other.
 pub fn segment(ui: &mut Ui, name: &str, chosen: bool) -> Response {
     let height = ui.spacing().interact_size.y - 2.0;
@@ -178,7 +275,7 @@ pub fn segment(ui: &mut Ui, name: &str, chosen: bool) -> Response {
     let font = egui::TextStyle::Button.resolve(ui.style());
     let color = if chosen { palette.accent } else { palette.text };
     let galley = ui.painter().layout_no_wrap(name.to_owned(), font, color);
-    let size = vec2(galley.size().x + 5.0 * GAP, height);
+    let size = vec2(galley.size().x + SEGMENT_MARGINS, height);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     response
         .widget_info(|| egui::WidgetInfo::selected(egui::Role::RadioButton, true, chosen, name));

@@ -76,7 +76,13 @@ fn modes(ui: &mut Ui, session: &Session, asked: &mut Asked) {
         let command = Command::Mode(mode);
         (command, mode.name(), tip(mode.says(), command))
     });
-    row::segments(ui, Command::Mode(session.mode()), &options, asked);
+    row::segments(
+        ui,
+        f32::INFINITY,
+        Command::Mode(session.mode()),
+        &options,
+        asked,
+    );
 }
 
 /// The same as a menu, where there is less room.

@@ -9,6 +9,7 @@ mod clips;
 mod comparing;
 mod dialogs;
 mod editing;
+mod fits;
 mod graph;
 mod hand;
 mod interpolation;

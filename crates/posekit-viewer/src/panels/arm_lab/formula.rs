@@ -16,6 +16,8 @@ pub(super) fn show(ui: &mut Ui, lab: &mut ArmLab) {
     ScrollArea::both()
         .auto_shrink([false, false])
         .show(ui, |ui| {
+            // A line of a formula stays one: it is scrolled to where it has no room.
+            ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
             ui.horizontal_top(|ui| {
                 ui.spacing_mut().item_spacing.x = 9.0 * GAP;
                 ui.vertical(|ui| forwards(ui, &read));

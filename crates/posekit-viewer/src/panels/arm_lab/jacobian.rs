@@ -16,6 +16,7 @@ pub(super) fn show(ui: &mut Ui, lab: &ArmLab) {
     ScrollArea::both()
         .auto_shrink([false, false])
         .show(ui, |ui| {
+            ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
             Grid::new("jacobian")
                 .spacing([6.0 * GAP, 1.5 * GAP])
                 .min_row_height(17.0)

@@ -15,18 +15,19 @@ use crate::theme::{GAP, Palette};
 
 /// Shows it.
 pub(super) fn show(ui: &mut Ui, lab: &mut ArmLab, panel: &mut LabPanel, asked: &mut Asked) {
-    row::heading(ui, "Robot", |ui| {
-        if icon_button(ui, Icon::Folder, &tip("Open a URDF file", Command::Open)).clicked() {
-            asked.command(Command::Open);
-        }
-    });
-    choose(ui, lab);
-    row::divider(ui);
-    row::heading(ui, "Joints", |ui| buttons(ui, lab));
-    panel.pointed = None;
     ScrollArea::vertical()
         .auto_shrink([false, false])
         .show(ui, |ui| {
+            row::heading(ui, "Robot", |ui| {
+                if icon_button(ui, Icon::Folder, &tip("Open a URDF file", Command::Open)).clicked()
+                {
+                    asked.command(Command::Open);
+                }
+            });
+            choose(ui, lab);
+            row::divider(ui);
+            row::heading(ui, "Joints", |ui| buttons(ui, lab));
+            panel.pointed = None;
             ui.spacing_mut().item_spacing = vec2(GAP, 2.0);
             let count = lab.bench().map_or(0, |bench| bench.values().len());
             if count == 0 {

@@ -27,9 +27,15 @@ pub(super) fn show(ui: &mut Ui, lab: &ArmLab, detail: Detail) {
     let Some(bench) = lab.bench() else { return };
     let list = factors(bench.robot(), bench.values(), bench.tip(), detail);
     let pinned = WIDTH + 2.0 * f32::from(MARGIN) + 3.0 * GAP;
+    // Where less than two of them fit, the whole map comes after its factors.
+    let is_pinned = ui.available_width() >= 2.0 * pinned;
     ui.horizontal_top(|ui| {
         ui.spacing_mut().item_spacing.x = 2.0 * GAP;
-        let room = (ui.available_width() - pinned).max(WIDTH);
+        let room = if is_pinned {
+            ui.available_width() - pinned
+        } else {
+            ui.available_width()
+        };
         ScrollArea::both()
             .id_salt("factors")
             .max_width(room)
@@ -42,9 +48,12 @@ pub(super) fn show(ui: &mut Ui, lab: &ArmLab, detail: Detail) {
                         let before = index.checked_sub(1).map(|before| &list[before]);
                         ui.push_id(index, |ui| card(ui, factor, before, name));
                     }
+                    if let Some(last) = list.last().filter(|_| !is_pinned) {
+                        whole(ui, last);
+                    }
                 });
             });
-        if let Some(last) = list.last() {
+        if let Some(last) = list.last().filter(|_| is_pinned) {
             whole(ui, last);
         }
     });

@@ -45,13 +45,13 @@ pub struct LabPanel {
     pub pointed: Option<JointId>,
 }
 
-/// Shows the lab in all the room there is. Returns where the view is.
+/// Shows the lab in all the room there is. Returns where the view is, and where the room under its tools begins.
 pub fn show(
     ui: &mut Ui,
     (lab, panel, painter): (&mut ArmLab, &mut LabPanel, &mut Painter),
     (sides, look): (Sides, Look),
     asked: &mut Asked,
-) -> Rect {
+) -> (Rect, f32) {
     let before = lab.version();
     let ground = Frame::NONE.fill(ui.visuals().panel_fill);
     let side = ground.inner_margin(Margin::symmetric(10, 6));
@@ -72,8 +72,8 @@ pub fn show(
     }
     let shown = CentralPanel::no_frame().show(ui, |ui| {
         let rect = ui.available_rect_before_wrap();
-        view::show(ui, (&mut *lab, *panel, painter), look, asked);
-        rect
+        let free = view::show(ui, (&mut *lab, *panel, painter), look, asked);
+        (rect, free)
     });
     // What was shown before it changed is shown again as it is now.
     if lab.version() != before {

@@ -15,29 +15,32 @@ use crate::state::arm::mobility::{Hardest, Singularity};
 use crate::state::mode::{Space, TURN_STEP_DEG};
 use crate::theme::{GAP, Palette};
 
-/// Shows it.
-pub(super) fn show(ui: &mut Ui, rect: Rect, lab: &mut ArmLab, asked: &mut Asked) {
+/// Shows it. Where the room below it begins.
+pub(super) fn show(ui: &mut Ui, rect: Rect, lab: &mut ArmLab, asked: &mut Asked) -> f32 {
     let room = rect.shrink(10.0);
-    if room.width() < 160.0 || room.height() < 80.0 {
-        return;
+    if room.width() < 120.0 || room.height() < 80.0 {
+        return rect.top();
     }
     let builder = UiBuilder::new()
         .max_rect(room)
         .layout(Layout::left_to_right(Align::Min));
-    let above = ui.scope_builder(builder, |ui| tools(ui, room.width(), lab, asked));
-    let Some(bench) = lab.bench() else { return };
-    let below = room.with_min_y(above.inner.bottom() + 2.0 * GAP);
-    warning(ui, below, bench);
+    let above = ui.scope_builder(builder, |ui| tools(ui, lab, asked));
+    let mut bottom = above.inner.bottom();
+    let Some(bench) = lab.bench() else {
+        return bottom;
+    };
+    let below = room.with_min_y(bottom + 2.0 * GAP);
+    if let Some(card) = warning(ui, below, bench) {
+        bottom = card.bottom();
+    }
     if bench.is_dragging() {
         pill(ui, room, "Ctrl: in steps  \u{b7}  Esc: let go");
     }
+    bottom
 }
 
-/// Where less is left the tools are in two lines.
-const TOOLS_ROOM: f32 = 520.0;
-
 /// Shows the tools. Where they are.
-fn tools(ui: &mut Ui, width: f32, lab: &mut ArmLab, asked: &mut Asked) -> Rect {
+fn tools(ui: &mut Ui, lab: &mut ArmLab, asked: &mut Asked) -> Rect {
     let palette = Palette::in_ui(ui);
     let card = Frame::NONE
         .fill(palette.raised.gamma_multiply(0.94))
@@ -45,70 +48,53 @@ fn tools(ui: &mut Ui, width: f32, lab: &mut ArmLab, asked: &mut Asked) -> Rect {
         .corner_radius(9.0)
         .inner_margin(Margin::same(3));
     let shown = card.show(ui, |ui| {
-        let first = |ui: &mut Ui, (lab, asked): &mut (&mut ArmLab, &mut Asked)| {
-            let (undo, redo) = lab.bench().map_or((false, false), Bench::can_undo_redo);
-            row::undo_buttons(ui, (undo.into(), redo.into()), 26.0, asked);
-            tool_choice(ui, lab);
-        };
-        let second = |ui: &mut Ui, (lab, asked): &mut (&mut ArmLab, &mut Asked)| {
-            space_choice(ui, lab);
-            snap(ui, lab, asked);
-            shown_choice(ui, lab);
-        };
-        row::rows(ui, width >= TOOLS_ROOM, &mut (lab, asked), [first, second]);
+        type Context<'a> = (&'a mut ArmLab, &'a mut Asked);
+        let groups: [row::Group<Context<'_>>; 5] = [
+            |ui, _, (lab, asked)| {
+                let (undo, redo) = lab.bench().map_or((false, false), Bench::can_undo_redo);
+                row::undo_buttons(ui, (undo.into(), redo.into()), 26.0, asked);
+            },
+            |ui, room, (lab, _)| tool_choice(ui, room, lab),
+            |ui, room, (lab, _)| space_choice(ui, room, lab),
+            |ui, _, (lab, asked)| snap(ui, lab, asked),
+            |ui, _, (lab, _)| shown_choice(ui, lab),
+        ];
+        row::lines(ui, &mut (lab, asked), &groups);
     });
     shown.response.rect
 }
 
-fn tool_choice(ui: &mut Ui, lab: &mut ArmLab) {
+fn tool_choice(ui: &mut Ui, room: f32, lab: &mut ArmLab) {
     let Some(now) = lab.bench().map(Bench::tool) else {
         return;
     };
-    let mut chosen = None;
-    row::well(ui, |ui| {
-        for (tool, name, says) in [
-            (
-                Tool::Move,
-                "Place",
-                "The tip is brought to a place, turned any way",
-            ),
-            (
-                Tool::MoveAndTurn,
-                "Place and turn",
-                "The tip is brought to a place, turned in a certain way",
-            ),
-        ] {
-            let is_now = now.turns() == tool.turns();
-            if row::segment(ui, name, is_now).on_hover_text(says).clicked() && !is_now {
-                chosen = Some(tool);
-            }
-        }
-    });
-    if let Some(tool) = chosen {
-        lab.work(|bench| bench.set_tool(tool));
-    }
+    let options = [
+        ("Place", "The tip is brought to a place, turned any way"),
+        (
+            "Place and turn",
+            "The tip is brought to a place, turned in a certain way",
+        ),
+    ];
+    let turns = now.turns();
+    match row::one_of(ui, "tool", room, Some(usize::from(turns)), &options) {
+        Some(0) if turns => lab.work(|bench| bench.set_tool(Tool::Move)),
+        Some(1) if !turns => lab.work(|bench| bench.set_tool(Tool::MoveAndTurn)),
+        _ => None,
+    };
 }
 
-fn space_choice(ui: &mut Ui, lab: &mut ArmLab) {
+fn space_choice(ui: &mut Ui, room: f32, lab: &mut ArmLab) {
     let Some(now) = lab.bench().map(Bench::space) else {
         return;
     };
-    let mut chosen = None;
-    row::well(ui, |ui| {
-        for (space, name, says) in [
-            (Space::World, "World", "The gizmo's axes are the world's"),
-            (Space::Local, "Tip", "The gizmo's axes are the tip's"),
-        ] {
-            if row::segment(ui, name, now == space)
-                .on_hover_text(says)
-                .clicked()
-            {
-                chosen = Some(space);
-            }
-        }
-    });
-    if let Some(space) = chosen {
-        lab.work(|bench| bench.set_space(space));
+    let spaces = [Space::World, Space::Local];
+    let options = [
+        ("World", "The gizmo's axes are the world's"),
+        ("Tip", "The gizmo's axes are the tip's"),
+    ];
+    let now = spaces.iter().position(|space| *space == now);
+    if let Some(index) = row::one_of(ui, "space", room, now, &options) {
+        lab.work(|bench| bench.set_space(spaces[index]));
     }
 }
 
@@ -145,17 +131,17 @@ fn shown_choice(ui: &mut Ui, lab: &mut ArmLab) {
     lab.set_shown(shown);
 }
 
-/// Says that the arm is at a singularity or near one, and what is lost.
-fn warning(ui: &Ui, room: Rect, bench: &Bench) {
+/// Says that the arm is at a singularity or near one, and what is lost. Where it says so.
+fn warning(ui: &Ui, room: Rect, bench: &Bench) -> Option<Rect> {
     let mobility = bench.mobility();
     let palette = Palette::in_ui(ui);
     let (word, color) = match mobility.singularity {
-        Singularity::Far => return,
+        Singularity::Far => return None,
         Singularity::Near => ("Near a singularity: hard", palette.warning),
         Singularity::At => ("Singular: it cannot", palette.error),
     };
     let verb = match (mobility.singularity, mobility.hardest) {
-        (_, None) => return,
+        (_, None) => return None,
         (Singularity::At, Some(Hardest::Move(_))) => "move along the red line",
         (Singularity::At, Some(Hardest::Turn(_))) => "turn about the red line",
         (_, Some(Hardest::Move(_))) => "to move along the line",
@@ -182,6 +168,7 @@ fn warning(ui: &Ui, room: Rect, bench: &Bench) {
     let id = ui.scope_id().with("singularity");
     let response = ui.interact(card, id, egui::Sense::hover());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, text.clone()));
+    Some(card)
 }
 
 fn pill(ui: &Ui, room: Rect, text: &str) {

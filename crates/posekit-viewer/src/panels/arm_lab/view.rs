@@ -19,19 +19,19 @@ use crate::theme::{CURVES, Palette};
 /// A gap between tip and target of fewer points is not drawn.
 const SEEN_GAP: f32 = 3.0;
 
-/// Shows it in all the room there is.
+/// Shows it in all the room there is. Where the room under the tools begins.
 pub(super) fn show(
     ui: &mut Ui,
     (lab, panel, painter): (&mut ArmLab, LabPanel, &mut Painter),
     look: Look,
     asked: &mut Asked,
-) {
+) -> f32 {
     let rect = ui.available_rect_before_wrap();
     let response = ui.allocate_rect(rect, Sense::click_and_drag());
     let label = "View of the robot: drag to turn, drag the tip's handles to move it";
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, label));
     if rect.width() < 2.0 || rect.height() < 2.0 {
-        return;
+        return rect.top();
     }
     lab.set_aspect(rect.width() / rect.height());
     let (hovered, is_held) = interact(ui, &response, lab);
@@ -60,7 +60,7 @@ pub(super) fn show(
             &marks.palette,
         );
     }
-    strip::show(ui, rect, lab, asked);
+    strip::show(ui, rect, lab, asked)
 }
 
 fn draw(ui: &Ui, rect: Rect, lab: &ArmLab, painter: &mut Painter, look: Look) {

@@ -17,24 +17,24 @@ const SLIDER_DEG: f64 = 360.0;
 
 /// Shows it.
 pub(super) fn show(ui: &mut Ui, lab: &mut InterpolationLab) {
-    row::heading(ui, "Show me", |_| {});
-    presets(ui, lab);
-    row::divider(ui);
-    row::heading(ui, "Orientations", |ui| {
-        order(ui, lab);
-        let swap = Button::new(RichText::new("Swap").small());
-        if ui
-            .add(swap)
-            .on_hover_text("Start and end change places")
-            .clicked()
-        {
-            lab.begin_step();
-            lab.change(crate::state::interpolation::Case::swap);
-        }
-    });
     ScrollArea::vertical()
         .auto_shrink([false, false])
         .show(ui, |ui| {
+            row::heading(ui, "Show me", |_| {});
+            presets(ui, lab);
+            row::divider(ui);
+            row::heading(ui, "Orientations", |ui| {
+                order(ui, lab);
+                let swap = Button::new(RichText::new("Swap").small());
+                if ui
+                    .add(swap)
+                    .on_hover_text("Start and end change places")
+                    .clicked()
+                {
+                    lab.begin_step();
+                    lab.change(crate::state::interpolation::Case::swap);
+                }
+            });
             ui.spacing_mut().item_spacing = vec2(GAP, 3.0);
             let mut removed = None;
             for key in 0..lab.case().keys_deg().len() {

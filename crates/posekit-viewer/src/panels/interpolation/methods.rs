@@ -34,29 +34,12 @@ const COLUMNS: [(&str, &str); 4] = [
 
 /// Shows it.
 pub(super) fn show(ui: &mut Ui, lab: &mut InterpolationLab) {
-    row::heading(ui, "Methods", |ui| {
-        for (name, says, choose) in [
-            (
-                "None",
-                "Show slerp alone",
-                (|kind| kind == Kind::Between(Method::Slerp)) as fn(Kind) -> bool,
-            ),
-            ("All", "Show every method", |_| true),
-        ] {
-            let button = Button::new(RichText::new(name).small());
-            if ui.add(button).on_hover_text(says).clicked() {
-                for kind in Kind::all() {
-                    lab.set_shown(kind, choose(kind));
-                }
-            }
-            ui.add_space(GAP);
-        }
-    });
-    let columns = columns(ui);
-    headings(ui, &columns);
     ScrollArea::vertical()
         .auto_shrink([false, false])
         .show(ui, |ui| {
+            row::heading(ui, "Methods", |ui| all_or_none(ui, lab));
+            let columns = columns(ui);
+            headings(ui, &columns);
             ui.spacing_mut().item_spacing.y = 0.0;
             for kind in Kind::all() {
                 kind_row(ui, lab, kind, &columns);
@@ -65,6 +48,25 @@ pub(super) fn show(ui: &mut Ui, lab: &mut InterpolationLab) {
             ui.spacing_mut().item_spacing.y = GAP;
             notes(ui, lab);
         });
+}
+
+fn all_or_none(ui: &mut Ui, lab: &mut InterpolationLab) {
+    for (name, says, choose) in [
+        (
+            "None",
+            "Show slerp alone",
+            (|kind| kind == Kind::Between(Method::Slerp)) as fn(Kind) -> bool,
+        ),
+        ("All", "Show every method", |_| true),
+    ] {
+        let button = Button::new(RichText::new(name).small());
+        if ui.add(button).on_hover_text(says).clicked() {
+            for kind in Kind::all() {
+                lab.set_shown(kind, choose(kind));
+            }
+        }
+        ui.add_space(GAP);
+    }
 }
 
 /// Where the numbers end, from the left.

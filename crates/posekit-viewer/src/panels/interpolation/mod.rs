@@ -43,13 +43,13 @@ fn color(hex: u32) -> Color32 {
     Color32::from_rgb(r, g, b)
 }
 
-/// Shows the lab in all the room there is. Returns where the view is.
+/// Shows the lab in all the room there is. Returns where the view is, and where the room under its tools begins.
 pub fn show(
     ui: &mut Ui,
     (lab, panel, painter): (&mut InterpolationLab, &mut InterpolationPanel, &mut Painter),
     (sides, look): (Sides, Look),
     asked: &mut Asked,
-) -> Rect {
+) -> (Rect, f32) {
     let page = lab.page();
     let before = (lab.version(), lab.clip.version());
     let ground = Frame::NONE.fill(ui.visuals().panel_fill);
@@ -80,17 +80,17 @@ pub fn show(
     Panel::bottom("interpolation time")
         .frame(ground.inner_margin(Margin::symmetric(10, 4)))
         .resizable(false)
-        .exact_size(38.0)
+        .exact_size(ui.spacing().interact_size.y.max(28.0) + 10.0)
         .show(ui, |ui| time::show(ui, lab, asked));
     // What was set above is measured before it is shown.
     lab.measure();
     let shown = CentralPanel::no_frame().show(ui, |ui| {
         let rect = ui.available_rect_before_wrap();
-        match page {
+        let free = match page {
             Page::Orientations => view::show(ui, (&mut *lab, painter), look, asked),
             Page::Clip => clip::view::show(ui, (&mut *lab, painter), look, asked),
-        }
-        rect
+        };
+        (rect, free)
     });
     if (lab.version(), lab.clip.version()) != before {
         ui.ctx().request_repaint();

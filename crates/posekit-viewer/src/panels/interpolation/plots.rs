@@ -164,25 +164,14 @@ fn eye(ui: &mut Ui, panel: &mut InterpolationPanel) {
 }
 
 fn choices(ui: &mut Ui, panel: &mut InterpolationPanel, index: usize) {
-    let palette = Palette::in_ui(ui);
-    let well = Frame::NONE
-        .fill(palette.sunken)
-        .corner_radius(7.0)
-        .inner_margin(Margin::same(2));
-    well.show(ui, |ui| {
-        ui.horizontal(|ui| {
-            ui.spacing_mut().item_spacing.x = 2.0;
-            for quantity in Quantity::ALL {
-                let is_now = panel.plots[index] == quantity;
-                if row::segment(ui, quantity.name(), is_now)
-                    .on_hover_text(quantity.says())
-                    .clicked()
-                {
-                    panel.plots[index] = quantity;
-                }
-            }
-        });
-    });
+    let options = Quantity::ALL.map(|quantity| (quantity.name(), quantity.says()));
+    let mut quantities = Quantity::ALL.iter();
+    let now = quantities.position(|quantity| *quantity == panel.plots[index]);
+    let room = ui.available_width();
+    let salt = ["left plot", "right plot"][index];
+    if let Some(chosen) = row::one_of(ui, salt, room, now, &options) {
+        panel.plots[index] = Quantity::ALL[chosen];
+    }
 }
 
 fn plot(
@@ -194,8 +183,9 @@ fn plot(
     let palette = Palette::in_ui(ui);
     let unit = quantity.unit();
     let length = lab.playback.length();
+    let height = ui.available_height().max(50.0);
     let mut plot = Plot::new(("interpolation plot", index, quantity.name()))
-        .height(ui.available_height().max(50.0))
+        .height(height)
         .width(ui.available_width())
         .show_axes(Vec2b::TRUE)
         .show_background(false)
@@ -217,12 +207,15 @@ fn plot(
     if quantity == Quantity::Determinant {
         plot = plot.include_y(1.0);
     }
-    if has_legend || quantity == Quantity::Angles {
+    // In a low plot the colours are told by the view, or by the list at the side.
+    let lines = lines(lab, quantity);
+    let is_told = has_legend || quantity == Quantity::Angles;
+    if is_told && row::legend_fits(lines.len(), height) {
         plot = plot.legend(Legend::default().background_alpha(0.7));
     }
     let now = lab.playback.share();
     let response = plot.show(ui, |plot| {
-        for (name, points, hex) in lines(lab, quantity) {
+        for (name, points, hex) in lines {
             let line = Line::new(name.clone(), PlotPoints::from(points));
             // Slerp is drawn last and broad: others lie on it.
             let is_slerp = name == "slerp";

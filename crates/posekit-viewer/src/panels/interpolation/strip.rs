@@ -8,47 +8,52 @@ use crate::command::Command;
 use crate::state::display::Compare;
 use crate::state::interpolation::{InterpolationLab, Page, Picture};
 use crate::state::mode::{Space, TURN_STEP_DEG};
-use crate::theme::{GAP, Palette};
+use crate::theme::Palette;
 
 /// Under these widths the strip leaves out what keys do as well, and the list of keys with a click.
 const SNAP_ROOM: f32 = 760.0;
 const UNDO_ROOM: f32 = 560.0;
 
-/// Under this width the cards stand under each other.
-const NARROW: f32 = 480.0;
-
-/// Shows it.
-pub(super) fn show(ui: &mut Ui, rect: Rect, lab: &mut InterpolationLab, asked: &mut Asked) {
+/// Shows it. Where it ends.
+pub(super) fn show(ui: &mut Ui, rect: Rect, lab: &mut InterpolationLab, asked: &mut Asked) -> f32 {
     let room = rect.shrink2(vec2(10.0, 6.0));
-    if room.width() < 160.0 || room.height() < 60.0 {
-        return;
+    if room.width() < 120.0 || room.height() < 60.0 {
+        return rect.top();
     }
     let builder = UiBuilder::new()
         .max_rect(room)
-        .layout(if room.width() < NARROW {
-            Layout::top_down(Align::Min)
-        } else {
-            Layout::left_to_right(Align::Min)
-        });
-    ui.scope_builder(builder, |ui| {
-        ui.spacing_mut().item_spacing = vec2(2.0 * GAP, GAP);
-        card(ui, |ui| pages(ui, lab));
-        match lab.page() {
-            Page::Orientations => {
-                card(ui, |ui| pictures(ui, lab));
-                if room.width() >= UNDO_ROOM {
+        .layout(Layout::left_to_right(Align::Min));
+    let shown = ui.scope_builder(builder, |ui| {
+        type Context<'a> = (&'a mut InterpolationLab, &'a mut Asked);
+        let groups: [row::Group<Context<'_>>; 4] = [
+            |ui, room, (lab, _)| card(ui, |ui| pages(ui, room, lab)),
+            |ui, room, (lab, _)| {
+                card(ui, |ui| match lab.page() {
+                    Page::Orientations => pictures(ui, room, lab),
+                    Page::Clip => arrangements(ui, room, lab),
+                });
+            },
+            |ui, _, (lab, _)| {
+                if lab.page() == Page::Orientations && lab.picture() == Picture::Sphere {
+                    card(ui, |ui| tips(ui, lab));
+                }
+            },
+            |ui, room, (lab, asked)| {
+                if lab.page() == Page::Orientations && room >= UNDO_ROOM {
                     card(ui, |ui| {
                         let (undo, redo) = lab.can_undo_redo();
                         row::undo_buttons(ui, (undo.into(), redo.into()), 22.0, asked);
-                        if room.width() >= SNAP_ROOM {
+                        if room >= SNAP_ROOM {
                             rings(ui, lab, asked);
                         }
                     });
                 }
-            }
-            Page::Clip => card(ui, |ui| arrangements(ui, lab)),
-        }
+            },
+        ];
+        row::lines(ui, &mut (lab, asked), &groups);
+        ui.min_rect()
     });
+    shown.inner.bottom()
 }
 
 fn card(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
@@ -66,49 +71,46 @@ fn card(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
     });
 }
 
-fn pages(ui: &mut Ui, lab: &mut InterpolationLab) {
-    for (page, name, says) in [
+/// What a card takes beside what is in it.
+const CARD: f32 = 8.0;
+
+fn pages(ui: &mut Ui, room: f32, lab: &mut InterpolationLab) {
+    let pages = [Page::Orientations, Page::Clip];
+    let options = [
+        ("Orientations", "The ways between orientations of your own"),
         (
-            Page::Orientations,
-            "Orientations",
-            "The ways between orientations of your own",
-        ),
-        (
-            Page::Clip,
             "On a clip",
             "Keep some frames of the active clip, fill in the others by each method, and compare",
         ),
-    ] {
-        if row::segment(ui, name, lab.page() == page)
-            .on_hover_text(says)
-            .clicked()
-        {
-            lab.set_page(page);
-        }
+    ];
+    let now = pages.iter().position(|page| *page == lab.page());
+    if let Some(index) = row::one_of(ui, "page", room - CARD, now, &options) {
+        lab.set_page(pages[index]);
     }
 }
 
-fn pictures(ui: &mut Ui, lab: &mut InterpolationLab) {
-    for picture in Picture::ALL {
-        let response = row::segment(ui, picture.name(), lab.picture() == picture);
-        if response.on_hover_text(picture.says()).clicked() {
-            lab.set_picture(picture);
-        }
+fn pictures(ui: &mut Ui, room: f32, lab: &mut InterpolationLab) {
+    let options = Picture::ALL.map(|picture| (picture.name(), picture.says()));
+    let mut pictures = Picture::ALL.iter();
+    let now = pictures.position(|picture| *picture == lab.picture());
+    if let Some(index) = row::one_of(ui, "picture", room - CARD, now, &options) {
+        lab.set_picture(Picture::ALL[index]);
     }
-    if lab.picture() == Picture::Sphere {
-        ui.add_space(GAP);
-        for (axis, says) in [
-            (Axis::X, "The path of the tip of the red axis"),
-            (Axis::Y, "The path of the tip of the green axis"),
-            (
-                Axis::Z,
-                "The path of the tip of the blue axis, where the nose points",
-            ),
-        ] {
-            let response = row::segment(ui, &axis.letter().to_string(), lab.tip() == axis);
-            if response.on_hover_text(says).clicked() {
-                lab.set_tip(axis);
-            }
+}
+
+/// Whose path is drawn on the sphere.
+fn tips(ui: &mut Ui, lab: &mut InterpolationLab) {
+    for (axis, says) in [
+        (Axis::X, "The path of the tip of the red axis"),
+        (Axis::Y, "The path of the tip of the green axis"),
+        (
+            Axis::Z,
+            "The path of the tip of the blue axis, where the nose points",
+        ),
+    ] {
+        let response = row::segment(ui, &axis.letter().to_string(), lab.tip() == axis);
+        if response.on_hover_text(says).clicked() {
+            lab.set_tip(axis);
         }
     }
 }
@@ -133,22 +135,15 @@ fn rings(ui: &mut Ui, lab: &mut InterpolationLab, asked: &mut Asked) {
     }
 }
 
-fn arrangements(ui: &mut Ui, lab: &mut InterpolationLab) {
-    for (arrangement, name, says) in [
-        (
-            Compare::SideBySide,
-            "Side by side",
-            "The figures next to one another",
-        ),
-        (
-            Compare::Overlaid,
-            "Overlaid",
-            "All figures where the clip says",
-        ),
-    ] {
-        let response = row::segment(ui, name, lab.clip.arrangement() == arrangement);
-        if response.on_hover_text(says).clicked() {
-            lab.clip.set_arrangement(arrangement);
-        }
+fn arrangements(ui: &mut Ui, room: f32, lab: &mut InterpolationLab) {
+    let arrangements = [Compare::SideBySide, Compare::Overlaid];
+    let options = [
+        ("Side by side", "The figures next to one another"),
+        ("Overlaid", "All figures where the clip says"),
+    ];
+    let mut known = arrangements.iter();
+    let now = known.position(|arrangement| *arrangement == lab.clip.arrangement());
+    if let Some(index) = row::one_of(ui, "arrangement", room - CARD, now, &options) {
+        lab.clip.set_arrangement(arrangements[index]);
     }
 }

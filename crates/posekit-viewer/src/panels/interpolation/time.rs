@@ -44,22 +44,40 @@ pub(super) fn show(ui: &mut Ui, lab: &mut InterpolationLab, asked: &mut Asked) {
     });
 }
 
+/// What the slider has at least.
+const SLIDER: f32 = 84.0;
+
+/// The way's slider; beside it, where there is room, the share of the way, the time that it takes, and how far it
+/// goes.
 fn way(ui: &mut Ui, lab: &mut InterpolationLab) {
-    let number = DragValue::new(&mut lab.playback.secs)
-        .range(SECS_RANGE)
-        .speed(0.05)
-        .fixed_decimals(1)
-        .suffix(" s");
-    ui.add_sized(vec2(56.0, 22.0), number)
-        .on_hover_text("How long the way from key to key takes to play");
-    if lab.case().gap_count() > 1 {
+    const SHARE: f32 = 66.0;
+    const SECS: f32 = 56.0;
+    const SPAN: f32 = 140.0;
+    let room = ui.available_width() - SLIDER;
+    let has_share = room >= SHARE;
+    let has_secs = room >= SHARE + SECS;
+    let has_span = room >= SHARE + SECS + SPAN;
+    let height = ui.spacing().interact_size.y;
+    if has_secs {
+        let number = DragValue::new(&mut lab.playback.secs)
+            .range(SECS_RANGE)
+            .speed(0.05)
+            .fixed_decimals(1)
+            .suffix(" s");
+        ui.add_sized(vec2(SECS, height), number)
+            .on_hover_text("How long the way from key to key takes to play");
+    }
+    if has_span && lab.case().gap_count() > 1 {
         spans(ui, lab);
     }
     let palette = Palette::in_ui(ui);
     let length = lab.playback.length();
     let mut share = lab.playback.share();
-    let text = RichText::new(format!("t = {}", fixed(share, 2))).monospace();
-    ui.add_sized(vec2(66.0, 22.0), egui::Label::new(text.color(palette.text)));
+    if has_share {
+        let text = RichText::new(format!("t = {}", fixed(share, 2))).monospace();
+        let text = egui::Label::new(text.color(palette.text));
+        ui.add_sized(vec2(SHARE, height), text);
+    }
     ui.spacing_mut().slider_width = ui.available_width().max(40.0);
     let response = ui.add(
         Slider::new(&mut share, 0.0..=length)
@@ -74,39 +92,30 @@ fn way(ui: &mut Ui, lab: &mut InterpolationLab) {
 }
 
 fn spans(ui: &mut Ui, lab: &mut InterpolationLab) {
-    let palette = Palette::in_ui(ui);
-    let well = egui::Frame::NONE
-        .fill(palette.sunken)
-        .corner_radius(7.0)
-        .inner_margin(egui::Margin::same(2));
-    well.show(ui, |ui| {
-        ui.spacing_mut().item_spacing.x = 2.0;
-        // From the right: the last comes first.
-        for (span, name, says) in [
-            (Span::AllKeys, "All keys", "t runs through all keys"),
-            (
-                Span::Pair,
-                "Start to end",
-                "t runs from the start to the end",
-            ),
-        ] {
-            let response = row::segment(ui, name, lab.span() == span);
-            if response.on_hover_text(says).clicked() {
-                lab.set_span(span);
-            }
-        }
-    });
+    // What is left of the line is the share of the way and its slider's.
+    const OTHERS: f32 = 66.0 + SLIDER;
+    let spans = [Span::Pair, Span::AllKeys];
+    let options = [
+        ("Start to end", "t runs from the start to the end"),
+        ("All keys", "t runs through all keys"),
+    ];
+    let now = spans.iter().position(|span| *span == lab.span());
+    let room = ui.available_width() - OTHERS;
+    if let Some(index) = row::one_of(ui, "span", room, now, &options) {
+        lab.set_span(spans[index]);
+    }
 }
 
 fn frames(ui: &mut Ui, lab: &mut InterpolationLab) {
     let palette = Palette::in_ui(ui);
     let transport = &mut lab.clip.transport;
     let (last, frame) = (transport.last_frame(), transport.frame());
-    let text = RichText::new(format!("frame {frame} / {last}")).monospace();
-    ui.add_sized(
-        vec2(150.0, 22.0),
-        egui::Label::new(text.color(palette.text)),
-    );
+    const NUMBERS: f32 = 150.0;
+    if ui.available_width() >= NUMBERS + SLIDER {
+        let text = RichText::new(format!("frame {frame} / {last}")).monospace();
+        let text = egui::Label::new(text.color(palette.text));
+        ui.add_sized(vec2(NUMBERS, ui.spacing().interact_size.y), text);
+    }
     ui.spacing_mut().slider_width = ui.available_width().max(40.0);
     let mut shown = frame;
     let response = ui.add_enabled(

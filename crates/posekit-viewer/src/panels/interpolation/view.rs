@@ -1,6 +1,9 @@
 //! The lab's view: start and end with their rings, and what the methods make of the way.
 
-use egui::{Color32, FontId, Painter as Canvas, Rect, Response, Sense, Ui, pos2, vec2};
+use std::sync::Arc;
+
+use egui::text::{LayoutJob, TextWrapping};
+use egui::{Color32, FontId, Galley, Painter as Canvas, Rect, Response, Sense, Ui, pos2, vec2};
 use posekit::inbetween::Method;
 
 use super::super::Asked;
@@ -17,19 +20,19 @@ use crate::theme::Palette;
 /// Less room than this beside an end, points, has no place for rings.
 const RINGS_ROOM: f32 = 130.0;
 
-/// Shows it in all the room there is.
+/// Shows it in all the room there is. Where the room under the tools begins.
 pub(super) fn show(
     ui: &mut Ui,
     (lab, painter): (&mut InterpolationLab, &mut Painter),
     look: Look,
     asked: &mut Asked,
-) {
+) -> f32 {
     let rect = ui.available_rect_before_wrap();
     let response = ui.allocate_rect(rect, Sense::click_and_drag());
     let label = "View of the orientations: drag the rings of start and end, drag elsewhere to look from another side";
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, label));
     if rect.width() < 2.0 || rect.height() < 2.0 {
-        return;
+        return rect.top();
     }
     lab.set_view_size(rect.size());
     let (hovered, is_held) = interact(ui, &response, lab);
@@ -40,7 +43,10 @@ pub(super) fn show(
     let canvas = ui.painter().with_clip_rect(rect);
     captions(ui, &canvas, rect, lab);
     rings(ui, &canvas, rect, (lab, hovered));
-    strip::show(ui, rect, lab, asked);
+    let bottom = strip::show(ui, rect, lab, asked);
+    // In how many lines the tools are is known once they were shown.
+    lab.set_tools_height(bottom - rect.top());
+    bottom
 }
 
 /// Everything is always in the picture: a drag turns it, and there is nothing to move or to come nearer to.
@@ -182,19 +188,33 @@ fn captions(ui: &Ui, canvas: &Canvas, rect: Rect, lab: &InterpolationLab) {
         Picture::SideBySide => {
             for (kind, cell) in lab.shown().zip(&layout.cells) {
                 let cell = cell.translate(rect.min.to_vec2());
+                // Where a cell is hardly higher than its caption the list at the side has the names.
+                if cell.height() < layout::CAPTION {
+                    continue;
+                }
                 let middle = pos2(cell.center().x, cell.bottom() - layout::CAPTION);
                 caption(canvas, middle, cell.width(), (lab, kind), &palette);
             }
         }
         Picture::Overlaid => legend(canvas, rect, lab, &palette),
         Picture::Sphere => {
-            legend(canvas, rect, lab, &palette);
             tips(canvas, rect, lab, &palette);
+            legend(canvas, rect, lab, &palette);
         }
     }
 }
 
-/// A method's name and its numbers now, under its body.
+/// In less room than this a name would be a letter or two: the colour alone says which it is, as in the list.
+const NAME_ROOM: f32 = 46.0;
+
+/// A text that ends in an ellipsis where its room ends.
+fn within(canvas: &Canvas, text: String, font: FontId, ink: Color32, room: f32) -> Arc<Galley> {
+    let mut job = LayoutJob::simple_singleline(text, font, ink);
+    job.wrap = TextWrapping::truncate_at_width(room.max(1.0));
+    canvas.layout_job(job)
+}
+
+/// A method's name and its numbers now, under its body, in the width of its cell.
 fn caption(
     canvas: &Canvas,
     top: egui::Pos2,
@@ -202,15 +222,21 @@ fn caption(
     (lab, kind): (&InterpolationLab, Kind),
     palette: &Palette,
 ) {
-    let name = FontId::proportional(13.0);
+    const DOT: f32 = 8.0;
+    const AFTER_DOT: f32 = 4.0;
+    let font = FontId::proportional(13.0);
     let hue = color(hex_of(kind));
     let word = kind.name(lab.case().order());
-    let galley = canvas.layout_no_wrap(word, name, palette.text);
-    let dot = 8.0;
-    let left = top.x - 0.5 * (galley.size().x + dot + 4.0);
-    let row = top.y + 0.5 * galley.size().y;
-    canvas.circle_filled(pos2(left + 0.5 * dot, row), 0.5 * dot, hue);
-    canvas.galley(pos2(left + dot + 4.0, top.y), galley, palette.text);
+    let room = width - 2.0 * AFTER_DOT;
+    if room < NAME_ROOM {
+        canvas.circle_filled(pos2(top.x, top.y + DOT), 0.5 * DOT, hue);
+        return;
+    }
+    let name = within(canvas, word, font, palette.text, room - DOT - AFTER_DOT);
+    let left = top.x - 0.5 * (name.size().x + DOT + AFTER_DOT);
+    let row = top.y + 0.5 * name.size().y;
+    canvas.circle_filled(pos2(left + 0.5 * DOT, row), 0.5 * DOT, hue);
+    canvas.galley(pos2(left + DOT + AFTER_DOT, top.y), name, palette.text);
     let now = lab.now(kind);
     let text = if kind.makes_rotations() {
         if kind == Kind::Between(Method::Slerp) {
@@ -231,15 +257,16 @@ fn caption(
             format!("det {det}")
         }
     };
-    let small = FontId::proportional(11.0);
-    let place = pos2(top.x, top.y + 15.0);
     let is_no_rotation = !kind.makes_rotations() && (now.blend.determinant() - 1.0).abs() > 5e-3;
     let ink = if is_no_rotation {
         palette.warning
     } else {
         palette.quiet
     };
-    canvas.text(place, egui::Align2::CENTER_TOP, text, small, ink);
+    let small = FontId::proportional(11.0);
+    let numbers = within(canvas, text, small, ink, room);
+    let place = pos2(top.x - 0.5 * numbers.size().x, top.y + 15.0);
+    canvas.galley(place, numbers, ink);
 }
 
 /// The names of the start's and the end's tip on the sphere.
@@ -261,19 +288,29 @@ fn tips(canvas: &Canvas, rect: Rect, lab: &InterpolationLab, palette: &Palette) 
 /// The names of the methods in their colours, where all are in one place.
 fn legend(canvas: &Canvas, rect: Rect, lab: &InterpolationLab, palette: &Palette) {
     let font = FontId::proportional(12.0);
-    let mut row = rect.bottom() - 10.0;
-    let shown: Vec<Kind> = lab.shown().collect();
-    for kind in shown.into_iter().rev() {
-        let word = kind.name(lab.case().order());
-        let galley = canvas.layout_no_wrap(word, font.clone(), palette.text);
-        row -= galley.size().y + 1.0;
-        let right = rect.right() - 12.0;
-        canvas.galley(
-            pos2(right - galley.size().x, row),
-            galley.clone(),
-            palette.text,
-        );
-        let dot = pos2(right - galley.size().x - 8.0, row + 0.5 * galley.size().y);
+    let names: Vec<(Kind, Arc<Galley>)> = lab
+        .shown()
+        .map(|kind| {
+            let word = kind.name(lab.case().order());
+            (
+                kind,
+                canvas.layout_no_wrap(word, font.clone(), palette.text),
+            )
+        })
+        .collect();
+    let size = names.iter().fold(vec2(0.0, 0.0), |size, (_, name)| {
+        vec2(size.x.max(name.size().x), size.y + name.size().y + 1.0)
+    });
+    // What goes about in the view goes under it.
+    let corner = rect.right_bottom() - vec2(12.0, 10.0);
+    let plate = Rect::from_min_max(corner - size - vec2(16.0, 0.0), corner).expand(4.0);
+    canvas.rect_filled(plate, 4.0, palette.raised.gamma_multiply(0.8));
+    let mut row = corner.y;
+    for (kind, name) in names.into_iter().rev() {
+        row -= name.size().y + 1.0;
+        let at = pos2(corner.x - name.size().x, row);
+        let dot = at + vec2(-8.0, 0.5 * name.size().y);
+        canvas.galley(at, name, palette.text);
         canvas.circle_filled(dot, 4.0, color(hex_of(kind)));
     }
 }

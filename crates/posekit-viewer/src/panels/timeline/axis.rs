@@ -360,6 +360,13 @@ fn paint(ui: &Ui, axis: &Axis, rect: Rect, session: &Session, response: &Respons
         let handle = Rect::from_center_size(pos2(x, band.center().y - 2.0), vec2(5.0, 11.0));
         painter.rect_filled(handle, 2.0, palette.accent.gamma_multiply(0.7));
     }
+    let now = session.scene_secs();
+    let text = axis.frame(now).to_string();
+    let galley = painter.layout_no_wrap(text, FontId::proportional(11.0), palette.panel);
+    let flag = Rect::from_center_size(
+        pos2(axis.x(now), rect.top() + 8.0),
+        galley.size() + vec2(10.0, 2.0),
+    );
     let font = FontId::proportional(10.5);
     for (secs, frame) in axis.marks() {
         let x = axis.x(secs);
@@ -368,21 +375,15 @@ fn paint(ui: &Ui, axis: &Axis, rect: Rect, session: &Session, response: &Respons
             [pos2(x, foot - 4.0), pos2(x, foot)],
             Stroke::new(1.0, palette.quiet),
         );
-        painter.text(
-            pos2(x, rect.top() + 1.0),
-            Align2::CENTER_TOP,
-            frame.to_string(),
-            font.clone(),
-            palette.quiet,
-        );
+        let number = painter.layout_no_wrap(frame.to_string(), font.clone(), palette.quiet);
+        let place = Align2::CENTER_TOP.anchor_size(pos2(x, rect.top() + 1.0), number.size());
+        // Under the playhead's flag, which has the number, and at the ends only half of it would be seen.
+        let is_whole =
+            rect.x_range().contains(place.left()) && rect.x_range().contains(place.right());
+        if is_whole && !place.expand(2.0).intersects(flag) {
+            painter.galley(place.min, number, palette.quiet);
+        }
     }
-    let now = session.scene_secs();
-    let text = axis.frame(now).to_string();
-    let galley = painter.layout_no_wrap(text, FontId::proportional(11.0), palette.panel);
-    let flag = Rect::from_center_size(
-        pos2(axis.x(now), rect.top() + 8.0),
-        galley.size() + vec2(10.0, 2.0),
-    );
     painter.rect_filled(flag, 4.0, palette.accent);
     painter.galley(flag.center() - galley.size() / 2.0, galley, palette.panel);
     if let Some(pointer) = response.hover_pos().filter(|_| !response.dragged()) {

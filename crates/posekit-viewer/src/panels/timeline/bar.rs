@@ -18,6 +18,9 @@ use crate::theme::{GAP, Palette};
 const ONE_LINE: f32 = 860.0;
 const TWO_LINES: f32 = 520.0;
 
+/// In less height than this several lines would leave nothing for keys.
+const LOW: f32 = 200.0;
+
 /// How far beyond its neighbours a pose can be slid, percent.
 const OVERSHOOT: std::ops::RangeInclusive<f64> = -50.0..=150.0;
 
@@ -36,7 +39,20 @@ pub(super) fn show(ui: &mut Ui, session: &mut Session, timeline: &mut Timeline, 
             contents(ui);
         });
     };
-    if room >= ONE_LINE {
+    if room < ONE_LINE && ui.available_height() < LOW {
+        // Keys have the room; the bar is one line that is scrolled.
+        egui::ScrollArea::horizontal()
+            .id_salt("bar")
+            .show(ui, |ui| {
+                line(ui, &mut |ui| {
+                    tabs(ui, timeline);
+                    keying(ui, session, asked);
+                    switches(ui, session, asked);
+                    ways(ui, session, asked);
+                    slide(ui, session, &mut timeline.bar);
+                });
+            });
+    } else if room >= ONE_LINE {
         line(ui, &mut |ui| {
             tabs(ui, timeline);
             ui.add_space(2.0 * GAP);

@@ -26,26 +26,36 @@ const POINTS_PER_DOUBLING: f32 = 360.0;
 
 /// What the pointer is over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Hovered {
+struct Hovered {
     /// The figure's clip.
-    pub clip: ClipId,
+    clip: ClipId,
     /// The joint whose bone it is.
-    pub joint: JointId,
+    joint: JointId,
 }
 
-/// Shows the view in all the room there is. Returns what the pointer is over.
+/// What is below the view.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Below {
+    /// The mode's own panel, if it has one.
+    Mode,
+    /// A side, which takes its place.
+    Side,
+}
+
+/// Shows the view in all the room there is. Returns where the room under its tools begins.
 pub fn show(
     ui: &mut Ui,
     session: &mut Session,
     painter: &mut Painter,
+    below: Below,
     asked: &mut Asked,
-) -> Option<Hovered> {
+) -> f32 {
     let rect = ui.available_rect_before_wrap();
     let response = ui.allocate_rect(rect, Sense::click_and_drag());
     let label = "View of the figure: drag to turn, click a bone to select it";
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, label));
     if rect.width() < 2.0 || rect.height() < 2.0 {
-        return None;
+        return rect.top();
     }
     session.set_aspect(rect.width() / rect.height());
     let gizmo = handles::interact(ui, &response, session);
@@ -87,8 +97,7 @@ pub fn show(
         limbs::paint(ui, rect, session, shot);
         handles::paint(ui, rect, session, (&gizmo, shot));
     }
-    strip::show(ui, rect, session, asked);
-    hovered
+    strip::show(ui, (rect, below), session, asked)
 }
 
 #[expect(

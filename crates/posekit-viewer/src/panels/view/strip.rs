@@ -3,54 +3,61 @@
 use egui::{Align, Layout, Rect, Ui, UiBuilder, pos2, vec2};
 
 use super::super::{Asked, row, tip};
+use super::Below;
 use crate::command::Command;
 use crate::gizmo::Tool;
 use crate::state::mode::{Mode, Space, TURN_STEP_DEG, move_step};
 use crate::state::session::{Handles, Session};
 use crate::theme::Palette;
 
-/// Under this width the strip has two lines.
-const NARROW: f32 = 470.0;
-
-/// Shows both.
-pub(super) fn show(ui: &mut Ui, rect: Rect, session: &mut Session, asked: &mut Asked) {
+/// Shows both. Where the room below the tools begins.
+pub(super) fn show(
+    ui: &mut Ui,
+    (rect, below): (Rect, Below),
+    session: &mut Session,
+    asked: &mut Asked,
+) -> f32 {
     if !session.mode().edits() || session.active_clip().is_none() {
-        return;
+        return rect.top();
     }
     let room = Rect::from_min_max(rect.min + vec2(10.0, 10.0), rect.max - vec2(10.0, 10.0));
     if room.width() < 120.0 || room.height() < 80.0 {
-        return;
+        return rect.top();
     }
     let builder = UiBuilder::new()
         .max_rect(room)
         .layout(Layout::left_to_right(Align::Min));
-    ui.scope_builder(builder, |ui| tools(ui, room.width(), session, asked));
-    hint(ui, room, session);
+    let above = ui.scope_builder(builder, |ui| tools(ui, session, asked));
+    hint(ui, room, &text(session, below));
+    above.inner.bottom()
 }
 
-fn tools(ui: &mut Ui, width: f32, session: &mut Session, asked: &mut Asked) {
+/// Shows the tools. Where they are.
+fn tools(ui: &mut Ui, session: &mut Session, asked: &mut Asked) -> Rect {
     let palette = Palette::in_ui(ui);
     let card = egui::Frame::NONE
         .fill(palette.raised.gamma_multiply(0.94))
         .stroke(egui::Stroke::new(1.0, palette.line))
         .corner_radius(9.0)
         .inner_margin(egui::Margin::same(3));
-    card.show(ui, |ui| {
-        let first = |ui: &mut Ui, (session, asked): &mut (&mut Session, &mut Asked)| {
-            let (undo, redo) = session.step_names();
-            row::undo_buttons(ui, (undo.into(), redo.into()), 26.0, asked);
-            tool_choice(ui, session, asked);
-        };
-        let second = |ui: &mut Ui, (session, asked): &mut (&mut Session, &mut Asked)| {
-            spaces(ui, session);
-            snap(ui, session, asked);
-        };
-        row::rows(ui, width >= NARROW, &mut (session, asked), [first, second]);
+    let shown = card.show(ui, |ui| {
+        type Context<'a> = (&'a mut Session, &'a mut Asked);
+        let groups: [row::Group<Context<'_>>; 4] = [
+            |ui, _, (session, asked)| {
+                let (undo, redo) = session.step_names();
+                row::undo_buttons(ui, (undo.into(), redo.into()), 26.0, asked);
+            },
+            |ui, room, (session, asked)| tool_choice(ui, room, session, asked),
+            |ui, _, (session, _)| spaces(ui, session),
+            |ui, _, (session, asked)| snap(ui, session, asked),
+        ];
+        row::lines(ui, &mut (session, asked), &groups);
     });
+    shown.response.rect
 }
 
 /// Arrows or rings; on a target, arrows alone or both.
-fn tool_choice(ui: &mut Ui, session: &Session, asked: &mut Asked) {
+fn tool_choice(ui: &mut Ui, room: f32, session: &Session, asked: &mut Asked) {
     let tools = session.tools();
     let (chosen, options) = match session.handles() {
         Handles::Targets => {
@@ -88,7 +95,7 @@ fn tool_choice(ui: &mut Ui, session: &Session, asked: &mut Asked) {
         let command = Command::Tool(tool);
         (command, name, tip(says, command))
     });
-    row::segments(ui, Command::Tool(chosen), &options, asked);
+    row::segments(ui, room, Command::Tool(chosen), &options, asked);
 }
 
 fn spaces(ui: &mut Ui, session: &mut Session) {
@@ -119,14 +126,15 @@ fn snap(ui: &mut Ui, session: &Session, asked: &mut Asked) {
 }
 
 /// What the pointer does, and why nothing can be done where that is so.
-fn hint(ui: &Ui, room: Rect, session: &Session) {
+fn hint(ui: &Ui, room: Rect, text: &str) {
     let palette = Palette::in_ui(ui);
-    let text = text(session);
     if text.is_empty() {
         return;
     }
     let font = egui::TextStyle::Small.resolve(ui.style());
-    let galley = ui.painter().layout_no_wrap(text, font, palette.quiet);
+    let galley = ui
+        .painter()
+        .layout_no_wrap(text.to_owned(), font, palette.quiet);
     let size = galley.size() + vec2(20.0, 8.0);
     if size.x > room.width() {
         return;
@@ -139,7 +147,7 @@ fn hint(ui: &Ui, room: Rect, session: &Session) {
         .galley(at + vec2(10.0, 4.0), galley, palette.quiet);
 }
 
-fn text(session: &Session) -> String {
+fn text(session: &Session, below: Below) -> String {
     if session.is_in_hand() {
         return "Click or Enter: keep  \u{b7}  X, Y, Z: one axis  \u{b7}  Ctrl: in steps  \u{b7}  Esc: give up"
             .to_owned();
@@ -152,7 +160,10 @@ fn text(session: &Session) -> String {
         return "This clip has no frames to edit".to_owned();
     }
     if session.mode() == Mode::Animate && session.authored().is_none() {
-        return "Choose below how this clip is animated".to_owned();
+        return match below {
+            Below::Mode => "Choose below how this clip is animated".to_owned(),
+            Below::Side => "Close the side to choose how this clip is animated".to_owned(),
+        };
     }
     if session.has_pending_pose() {
         return "I: key this pose  \u{b7}  Alt+R: give it up".to_owned();

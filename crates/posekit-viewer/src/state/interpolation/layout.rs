@@ -6,9 +6,9 @@ use posekit_render::camera::{Camera, Projection};
 
 use super::Picture;
 
-/// Around everything, and room for the tools at the top, points.
+/// Around everything, and below the tools at the top, points.
 const MARGIN: f32 = 10.0;
-const TOOLS: f32 = 46.0;
+const BELOW_TOOLS: f32 = 6.0;
 
 /// Room for what is written under a body, points.
 pub const CAPTION: f32 = 34.0;
@@ -28,14 +28,15 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// The places of so many methods in a view of some size.
+    /// The places of so many methods in a view of some size, under tools of some height.
     #[must_use]
-    pub fn new(size: Vec2, methods: usize, picture: Picture) -> Self {
+    pub fn new(size: Vec2, tools: f32, methods: usize, picture: Picture) -> Self {
+        let top = tools + BELOW_TOOLS;
         let room = Rect::from_min_max(
-            pos2(MARGIN, TOOLS),
+            pos2(MARGIN, top),
             pos2(
                 (size.x - MARGIN).max(MARGIN + 2.0),
-                (size.y - 2.0).max(TOOLS + 2.0),
+                (size.y - 2.0).max(top + 2.0),
             ),
         );
         let width = ENDS.min(ENDS_SHARE * room.width());
@@ -136,7 +137,7 @@ mod tests {
             vec2(5.0, 5.0),
         ] {
             for count in 0..=13 {
-                let layout = Layout::new(size, count, Picture::SideBySide);
+                let layout = Layout::new(size, 40.0, count, Picture::SideBySide);
                 assert_eq!(layout.cells.len(), count);
                 if size.x > 100.0 {
                     let view = Rect::from_min_size(Pos2::ZERO, size).expand(0.1);
@@ -161,7 +162,7 @@ mod tests {
             distance: 5.0,
             projection: Projection::Orthographic { height: 2.5 },
         };
-        let layout = Layout::new(vec2(800.0, 480.0), 8, Picture::SideBySide);
+        let layout = Layout::new(vec2(800.0, 480.0), 40.0, 8, Picture::SideBySide);
         let camera = orbit.camera();
         let rect = Rect::from_min_size(Pos2::ZERO, vec2(800.0, 480.0));
         let viewport = Viewport::new(camera, rect);

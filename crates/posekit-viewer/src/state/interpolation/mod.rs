@@ -123,6 +123,8 @@ pub struct InterpolationLab {
     held: Option<Held>,
     ways: BTreeMap<Kind, Way>,
     view_size: Vec2,
+    /// How much of the view its tools take at the top, points.
+    tools_height: f32,
     version: u64,
     /// The lab's clock.
     pub playback: Playback,
@@ -151,6 +153,7 @@ impl Default for InterpolationLab {
             held: None,
             ways: BTreeMap::new(),
             view_size: Vec2::new(800.0, 500.0),
+            tools_height: 40.0,
             version: 0,
             playback: Playback::default(),
             camera,
@@ -416,10 +419,19 @@ impl InterpolationLab {
         }
     }
 
+    /// Tells how much of the view its tools take at the top, points.
+    pub fn set_tools_height(&mut self, height: f32) {
+        if (self.tools_height - height).abs() > 0.5 {
+            self.tools_height = height;
+            self.version += 1;
+        }
+    }
+
     /// Where things are in the view.
     #[must_use]
     pub fn layout(&self) -> Layout {
-        Layout::new(self.view_size, self.shown.len(), self.picture)
+        let count = self.shown.len();
+        Layout::new(self.view_size, self.tools_height, count, self.picture)
     }
 
     /// The camera now.

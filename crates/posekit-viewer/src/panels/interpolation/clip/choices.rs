@@ -18,7 +18,12 @@ const ROW: f32 = 25.0;
 
 /// Shows it.
 pub(in super::super) fn show(ui: &mut Ui, lab: &mut InterpolationLab) {
-    let lab = &mut lab.clip;
+    ScrollArea::vertical()
+        .auto_shrink([false, false])
+        .show(ui, |ui| all(ui, &mut lab.clip));
+}
+
+fn all(ui: &mut Ui, lab: &mut ClipLab) {
     row::heading(ui, "Clip", |_| {});
     let quiet = Palette::in_ui(ui).quiet;
     let Some(clip) = lab.clip() else {
@@ -43,17 +48,13 @@ pub(in super::super) fn show(ui: &mut Ui, lab: &mut InterpolationLab) {
     row::heading(ui, "Methods", |_| {});
     let note = "Tick what is compared; the eye shows its figure.";
     ui.label(RichText::new(note).small().color(quiet));
-    ScrollArea::vertical()
-        .auto_shrink([false, false])
-        .show(ui, |ui| {
-            ui.spacing_mut().item_spacing.y = 0.0;
-            truth(ui, lab);
-            for method in offered() {
-                method_row(ui, lab, method);
-            }
-            ui.add_space(2.0 * GAP);
-            copy(ui, lab);
-        });
+    ui.spacing_mut().item_spacing.y = 0.0;
+    truth(ui, lab);
+    for method in offered() {
+        method_row(ui, lab, method);
+    }
+    ui.add_space(2.0 * GAP);
+    copy(ui, lab);
 }
 
 fn every(ui: &mut Ui, lab: &mut ClipLab) {

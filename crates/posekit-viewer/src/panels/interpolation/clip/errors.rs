@@ -50,9 +50,13 @@ pub(in super::super) fn show(ui: &mut Ui, lab: &mut InterpolationLab) {
         return;
     }
     let mut go = None;
-    table(ui, lab, &mut go);
-    row::divider(ui);
-    heat(ui, lab, &mut go);
+    ScrollArea::vertical()
+        .auto_shrink([false, false])
+        .show(ui, |ui| {
+            table(ui, lab, &mut go);
+            row::divider(ui);
+            heat(ui, lab, &mut go);
+        });
     if let Some((frame, joint)) = go {
         lab.go_to(frame, Some(joint));
     }
@@ -171,14 +175,19 @@ fn heat(ui: &mut Ui, lab: &ClipLab, go: &mut Go) {
     let joints = results
         .first()
         .map_or(0, |filled| filled.error.joints.len());
-    ScrollArea::vertical()
-        .auto_shrink([false, false])
-        .show_rows(ui, JOINT_ROW, joints, |ui, rows| {
-            ui.spacing_mut().item_spacing.y = 0.0;
-            for index in rows {
-                joint_row(ui, lab, (&results, index), (cell, most), go);
-            }
-        });
+    ui.spacing_mut().item_spacing.y = 0.0;
+    for index in 0..joints {
+        let place = Rect::from_min_size(
+            ui.next_widget_position(),
+            vec2(ui.available_width(), JOINT_ROW),
+        );
+        // Rows that are scrolled away are not worth their text.
+        if ui.is_rect_visible(place) {
+            joint_row(ui, lab, (&results, index), (cell, most), go);
+        } else {
+            ui.allocate_exact_size(place.size(), Sense::hover());
+        }
+    }
 }
 
 fn joint_row(

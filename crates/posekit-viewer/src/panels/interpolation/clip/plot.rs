@@ -3,6 +3,7 @@
 use egui::{Ui, Vec2b, vec2};
 use egui_plot::{Legend, Line, Plot, PlotPoints, VLine};
 
+use super::super::super::row;
 use super::super::color;
 use super::super::plots::short;
 use crate::state::clip::{index_to_f64, nearest_index};
@@ -18,8 +19,9 @@ pub(in super::super) fn show(ui: &mut Ui, lab: &mut InterpolationLab, has_legend
     let lab = &mut lab.clip;
     let palette = Palette::in_ui(ui);
     let last = lab.transport.last_frame();
+    let height = ui.available_height().max(50.0);
     let mut plot = Plot::new("clip errors")
-        .height(ui.available_height().max(50.0))
+        .height(height)
         .show_axes(Vec2b::TRUE)
         .show_background(false)
         .show_grid(Vec2b::TRUE)
@@ -37,7 +39,7 @@ pub(in super::super) fn show(ui: &mut Ui, lab: &mut InterpolationLab, has_legend
         .include_x(index_to_f64(last.max(1)))
         .include_y(0.0)
         .sense(egui::Sense::click_and_drag());
-    if has_legend {
+    if has_legend && row::legend_fits(lab.results().len(), height) {
         plot = plot.legend(Legend::default().background_alpha(0.7));
     }
     let now = index_to_f64(lab.transport.frame());

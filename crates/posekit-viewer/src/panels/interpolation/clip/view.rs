@@ -12,19 +12,19 @@ use crate::state::interpolation::colors::{TRUTH, hex_of_fill};
 use crate::state::interpolation::{ClipLab, InterpolationLab};
 use crate::theme::Palette;
 
-/// Shows it in all the room there is.
+/// Shows it in all the room there is. Where the room under the tools begins.
 pub(in super::super) fn show(
     ui: &mut Ui,
     (lab, painter): (&mut InterpolationLab, &mut Painter),
     look: Look,
     asked: &mut Asked,
-) {
+) -> f32 {
     let rect = ui.available_rect_before_wrap();
     let response = ui.allocate_rect(rect, Sense::click_and_drag());
     let label = "View of the clip as it was and as it was filled in: drag to turn";
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, label));
     if rect.width() < 2.0 || rect.height() < 2.0 {
-        return;
+        return rect.top();
     }
     let clip = &mut lab.clip;
     clip.set_aspect(rect.width() / rect.height());
@@ -35,7 +35,7 @@ pub(in super::super) fn show(
     }
     draw(ui, rect, clip, painter, look);
     marks(ui, rect, clip);
-    strip::show(ui, rect, lab, asked);
+    strip::show(ui, rect, lab, asked)
 }
 
 fn draw(ui: &Ui, rect: Rect, clip: &ClipLab, painter: &mut Painter, look: Look) {

@@ -427,6 +427,7 @@ fn scroll(ui: &Ui, room: &Room, dope: &mut Dope) {
         room.body.max,
     );
     let response = ui.interact(bar, ui.scope_id().with("scroll"), Sense::drag());
+    response.widget_info(|| egui::WidgetInfo::new(egui::Role::ScrollBar));
     let share = bar.height() / whole.max(1.0);
     if response.dragged() {
         dope.scroll = (dope.scroll + response.drag_delta().y / share).clamp(0.0, most);

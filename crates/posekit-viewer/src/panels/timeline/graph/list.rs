@@ -38,6 +38,7 @@ pub(super) fn show(ui: &mut Ui, session: &mut Session, panel: &mut GraphPanel) {
         .partition(|lane| panel.graph.curves().contains_key(lane));
     ScrollArea::vertical()
         .id_salt("channels")
+        .min_scrolled_height(LIST_ROW)
         .auto_shrink([false, false])
         .show(ui, |ui| {
             ui.spacing_mut().item_spacing = vec2(GAP, 1.0);
