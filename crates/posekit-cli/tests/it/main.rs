@@ -28,6 +28,7 @@ mod manuals;
 mod numbers;
 mod numpy;
 mod real_files;
+mod reading;
 mod reference;
 mod render;
 mod robots;
