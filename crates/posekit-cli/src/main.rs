@@ -15,6 +15,7 @@ mod output;
 mod positions;
 mod program;
 mod progress;
+mod reading;
 mod sample;
 mod scene_file;
 mod select;

@@ -1,12 +1,12 @@
-//! Which axis is up: what is known of it in words, and the option `--up` of commands that draw.
+//! Which axis is up: what is known of it in words, and the option `--up` of commands that draw or check.
 
 use clap::Args;
-use posekit::figure::{UpAxis, UpEvidence, UpGuess, guess_up};
+use posekit::figure::{UpAxis, UpEvidence, UpGuess, UpTaken, take_up};
 use posekit::motion::Motion;
 
 use crate::failure::one_line;
 
-/// The axis that is drawn upright.
+/// The axis that is taken as up.
 #[derive(Clone, Copy, Debug, Default, Args)]
 pub(crate) struct UpArgs {
     /// The axis of the file that points up: x, y, z, or -x, -y, -z [default: the one along which the rest pose
@@ -23,42 +23,23 @@ impl UpArgs {
 
     /// The motion of a file stood on Y, and what is to be said about it.
     pub(crate) fn stand(self, name: &str, motion: Motion) -> (Motion, Option<String>) {
-        let (up, remark) = match self.up {
-            Some(up) => (up, None),
-            None => guessed(&motion),
-        };
-        let motion = match up {
-            UpAxis::Y => motion,
-            up => motion.turned(up.y_up_from_file()),
-        };
-        (
-            motion,
-            remark.map(|text| one_line(&format!("{name}: {text}"))),
-        )
+        let taken = take_up(&motion, self.up);
+        let remark = remark(taken).map(|text| one_line(&format!("{name}: {text}")));
+        (taken.up.stand(motion), remark)
     }
 }
 
-/// The axis to draw upright, and a remark where it is not plainly Y.
-fn guessed(motion: &Motion) -> (UpAxis, Option<String>) {
-    let Some(guess) = guess_up(motion) else {
-        return (UpAxis::Y, None);
-    };
-    let because = because(guess);
-    if guess.up == UpAxis::Y {
-        (UpAxis::Y, None)
-    } else if guess.is_known() {
-        let text = format!(
-            "{} is up, {because}, so the figure is turned to stand on it; --up chooses another axis",
-            guess.up
-        );
-        (guess.up, Some(text))
+/// What is to be said of a file of which another axis than Y was taken as up, or perhaps should have been.
+pub(crate) fn remark(taken: UpTaken) -> Option<String> {
+    let guess = taken.guess.filter(|guess| guess.up != UpAxis::Y)?;
+    let (up, because) = (guess.up, because(guess));
+    Some(if guess.is_known() {
+        format!(
+            "{up} is up, {because}, so the figure is turned to stand on it; --up chooses another axis"
+        )
     } else {
-        let text = format!(
-            "{} may be up, {because}; drawn with Y up, and --up chooses another axis",
-            guess.up
-        );
-        (UpAxis::Y, Some(text))
-    }
+        format!("{up} may be up, {because}; Y is taken as up, and --up chooses another axis")
+    })
 }
 
 /// What a guess rests on, as the end of a sentence.
@@ -108,5 +89,14 @@ pub(crate) fn sureness(guess: UpGuess) -> &'static str {
         UpEvidence::RestPoseAndMotion => "sure",
         UpEvidence::RestPose | UpEvidence::RestPoseAgainstMotion(_) => "likely",
         _ => "guess",
+    }
+}
+
+/// How sure the axis is that was taken, in a word for programs: it was said, or no guess was good enough and it is Y.
+pub(crate) fn taken_sureness(taken: UpTaken) -> &'static str {
+    match taken.guess {
+        _ if taken.is_said => "said",
+        Some(guess) if guess.is_known() || guess.up == taken.up => sureness(guess),
+        _ => "default",
     }
 }

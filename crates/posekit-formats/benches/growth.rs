@@ -9,12 +9,12 @@ mod harness;
 
 use std::fmt::Write as _;
 use std::hint::black_box;
-use std::sync::Arc;
 
 use harness::{Table, Unit, time_asked};
+use posekit::body::Anatomy;
 use posekit::check::CheckConfig;
-use posekit::figure::RestPose;
-use posekit::motion::PositionPolicy;
+use posekit::figure::{RestPose, body_extent, guess_up};
+use posekit::motion::{Motion, PositionPolicy};
 use posekit_formats::bvh;
 use posekit_formats::report::ImportReport;
 use posekit_formats::scene::{self, Shot};
@@ -44,20 +44,20 @@ fn main() {
         for (joints, text, document) in &files {
             // A rope may be longer than what is read.
             let Ok(document) = document else { continue };
-            let motion = document
-                .to_motion(PositionPolicy::Replace)
-                .expect("a motion");
-            let skeleton = Arc::clone(motion.skeleton());
-            let pairs = Arc::clone(&skeleton);
             table
                 .job(format!("read {joints}"), *joints, || {
                     black_box(bvh::read(text.as_bytes()).is_ok());
                 })
-                .job(format!("symmetric pairs of {joints}"), *joints, move || {
-                    black_box(pairs.symmetric_pairs());
+                // A skeleton keeps the pairs that were found: each time it is another one.
+                .job(format!("symmetric pairs of {joints}"), *joints, || {
+                    black_box(motion_of(document).skeleton().symmetric_pairs().len());
                 })
-                .job(format!("rest pose of {joints}"), *joints, move || {
-                    black_box(RestPose::of(&skeleton));
+                .job(format!("all that info asks of {joints}"), *joints, || {
+                    let motion = motion_of(document);
+                    black_box(motion.skeleton().symmetric_pairs().len());
+                    black_box(RestPose::of(motion.skeleton()));
+                    black_box((guess_up(&motion), body_extent(&motion)));
+                    black_box(Anatomy::of_motion(&motion).is_ok());
                 })
                 .job(format!("check {joints}"), *joints, || check(document));
         }
@@ -92,6 +92,11 @@ fn main() {
             });
     }
     table.measure(time_asked());
+}
+
+fn motion_of(document: &bvh::Bvh) -> Motion {
+    let motion = document.to_motion(PositionPolicy::Replace);
+    motion.expect("a motion")
 }
 
 fn check(document: &bvh::Bvh) {

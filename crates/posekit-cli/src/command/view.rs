@@ -15,6 +15,7 @@ use crate::failure::Failure;
 use crate::inputs::{self, Source};
 use crate::output::Guard;
 use crate::positions::PositionsArgs;
+use crate::reading::Said;
 use crate::up::UpArgs;
 
 /// Open a window and see the character move
@@ -62,7 +63,8 @@ pub(crate) fn run(args: &ViewArgs, global: &Global) -> Result<(), Failure> {
     if !has_display() {
         return Err(no_window("there is no display to open a window on"));
     }
-    let mut options = options(&args.files, &global.guard)?;
+    let said = Said::of(args.positions).and_up(args.up.said());
+    let mut options = options(&args.files, said, &global.guard)?;
     options.renderer = args.renderer.into();
     options.reading = ReadingSaid {
         positions: args.positions.is_given().then(|| args.positions.policies()),
@@ -99,7 +101,7 @@ fn sample_robot(name: &OsStr) -> Option<Opened> {
     })
 }
 
-fn options(names: &[OsString], guard: &Guard) -> Result<ViewerOptions, Failure> {
+fn options(names: &[OsString], said: Said, guard: &Guard) -> Result<ViewerOptions, Failure> {
     let mut options = ViewerOptions::default();
     for name in names {
         // A folder is opened as one: the window lists what is in it.
@@ -109,6 +111,7 @@ fn options(names: &[OsString], guard: &Guard) -> Result<ViewerOptions, Failure> 
             continue;
         }
         if let Some(robot) = sample_robot(name) {
+            said.refuse_robot(&name.to_string_lossy())?;
             options.inputs.push(robot);
             continue;
         }
@@ -118,8 +121,15 @@ fn options(names: &[OsString], guard: &Guard) -> Result<ViewerOptions, Failure> 
         }
         for input in found.list {
             let name = input.name();
+            said.refuse_scene(&input)?;
             match input.source {
                 Source::File(path) => {
+                    if path
+                        .extension()
+                        .is_some_and(|it| it.eq_ignore_ascii_case("urdf"))
+                    {
+                        said.refuse_robot(&name)?;
+                    }
                     // Whoever typed a wrong name is told where they typed it.
                     std::fs::File::open(&path)
                         .map_err(|error| Failure::cannot_read(&path, &error))?;
@@ -151,12 +161,14 @@ mod tests {
             "sample:planar2",
             "sample:arm7",
         ] {
-            let options = options(&[OsString::from(name)], &Guard::default()).unwrap();
+            let options =
+                options(&[OsString::from(name)], Said::default(), &Guard::default()).unwrap();
             let [Opened::Bytes { name, bytes }] = options.inputs.as_slice() else {
                 panic!("one robot");
             };
             assert!(name.ends_with(".urdf") && bytes.starts_with(b"<?xml"));
         }
-        assert!(options(&[OsString::from("sample:arm5")], &Guard::default()).is_err());
+        let arm5 = [OsString::from("sample:arm5")];
+        assert!(options(&arm5, Said::default(), &Guard::default()).is_err());
     }
 }

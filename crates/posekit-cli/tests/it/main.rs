@@ -29,6 +29,7 @@ mod keys;
 mod manuals;
 mod numbers;
 mod numpy;
+mod reading;
 mod real_files;
 mod reference;
 mod render;

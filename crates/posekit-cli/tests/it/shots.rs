@@ -265,3 +265,38 @@ fn several_clips_stand_and_are_coloured_as_the_commands_are() {
         assert_same(&of_window, &of_command, option);
     }
 }
+
+/// Files in metres and in centimetres: one rule makes the figures equally tall in the window, in its films and in
+/// the command's, whichever of them is the active one.
+#[test]
+fn clips_of_very_different_sizes_are_drawn_as_the_commands_are() {
+    let folder = folder_of_two();
+    folder.succeed(&["convert", "b.bvh", "cm.bvh", "--scale", "100", "--quiet"]);
+    folder.succeed(&["convert", "b.bvh", "tall.bvh", "--scale", "2", "--quiet"]);
+    let files = ["a.bvh", "cm.bvh", "tall.bvh"];
+    let orders: [[usize; 3]; 2] = [[0, 1, 2], [1, 0, 2]];
+    for order in orders {
+        let names = order.map(|index| files[index]);
+        let mut session = Session::default();
+        let (width, height) = SIZE.pixels();
+        session.set_aspect(width as f32 / height as f32);
+        for name in names {
+            session.open_beside(read_clip(name, folder.read(name).as_bytes()).unwrap());
+        }
+        let ids: Vec<_> = session.clips().iter().map(|open| open.id).collect();
+        for active in ids {
+            session.activate_among(active);
+            for (compare, option) in [
+                (Compare::SideBySide, "--beside"),
+                (Compare::Overlaid, "--overlay"),
+            ] {
+                display(&mut session, |display| display.compare = compare);
+                look_as_the_command(&mut session);
+                let args = ["--follow=never", option, names[1], option, names[2]];
+                let of_command = frames_of_command(&folder, names[0], 5, &args);
+                let of_window = frames_of_window(&session, ExportCamera::View);
+                assert_same(&of_window, &of_command, &format!("{option} of {names:?}"));
+            }
+        }
+    }
+}

@@ -5,6 +5,7 @@ use posekit::check::{
     CheckConfig, Finding, FindingCode, FrameRange, RelativePositions, Severity, Unit,
     check_channels, check_motion, relative_positions,
 };
+use posekit::figure::{UpAxis, UpTaken, take_up};
 use posekit::motion::{Motion, PositionPolicies};
 use posekit::range::{LONGEST_LENGTH, are_lengths};
 use posekit::skeleton::{JointId, Skeleton};
@@ -39,23 +40,51 @@ pub struct CheckEntry {
     pub message: String,
 }
 
+/// How the numbers of a document are taken when it is checked.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CheckAs {
+    /// What position channels mean.
+    pub positions: PositionPolicies,
+    /// The axis that points up; `None` takes the one that [`take_up`] finds.
+    pub up: Option<UpAxis>,
+}
+
+impl<P: Into<PositionPolicies>> From<P> for CheckAs {
+    fn from(positions: P) -> Self {
+        Self {
+            positions: positions.into(),
+            up: None,
+        }
+    }
+}
+
+/// What a check found, and how it took the document.
+#[derive(Clone, Debug)]
+pub struct Checked {
+    /// The entries, as [`check`] gives them.
+    pub entries: Vec<CheckEntry>,
+    /// The axis along which floor and feet were looked for.
+    pub up: UpTaken,
+}
+
 /// Checks a document: first what the reader noticed, one entry a code (its place is that of the first
 /// occurrence, `value` counts all of them), in the order of the file, then the findings in
 /// channels and motion, sorted as [`posekit::check::sort_findings`] does.
 ///
-/// `import_report` is what [`read`](super::read()) returned with the document; `policies` is what its
-/// position channels mean. Where they turn out to mean something else ([`relative_positions`]), that is a
-/// finding, and the motion is checked as it is meant: otherwise a figure that nobody recorded is blamed.
+/// `import_report` is what [`read`](super::read()) returned with the document; `how` is what its
+/// position channels mean, and which axis is up. Where channels turn out to mean something else
+/// ([`relative_positions`]), that is a finding, and the motion is checked as it is meant: otherwise a figure that
+/// nobody recorded is blamed. So it is with a figure that stands along another axis than Y: it is stood up.
 ///
 /// # Errors
 /// When the document has no joints, or a parent does not come before its child.
 pub fn check(
     bvh: &Bvh,
     import_report: &ImportReport,
-    policies: impl Into<PositionPolicies>,
+    how: impl Into<CheckAs>,
     config: &CheckConfig,
 ) -> Result<Vec<CheckEntry>, MotionError> {
-    check_with_gaps(bvh, &[], import_report, policies, config)
+    Ok(check_with_gaps(bvh, &[], import_report, how, config)?.entries)
 }
 
 /// As [`check`], of a document that [`read_with_gaps`](super::read_with_gaps) gave: values that are no
@@ -68,14 +97,14 @@ pub fn check_with_gaps(
     bvh: &Bvh,
     gaps: &[Gap],
     import_report: &ImportReport,
-    policies: impl Into<PositionPolicies>,
+    how: impl Into<CheckAs>,
     config: &CheckConfig,
-) -> Result<Vec<CheckEntry>, MotionError> {
-    let policies = policies.into();
+) -> Result<Checked, MotionError> {
+    let how = how.into();
     let mut entries = reader_entries(import_report);
     let beyond = OutOfRange::of(bvh);
     if gaps.is_empty() && beyond.is_none() {
-        return check_whole(bvh, entries, policies, config, Vec::new());
+        return check_whole(bvh, entries, how, config, Vec::new());
     }
     let found = gaps_by_joint(bvh, gaps)
         .iter()
@@ -90,7 +119,7 @@ pub fn check_with_gaps(
     if !beyond.is_none() {
         beyond.add_to(&mut entries, bvh);
     }
-    check_whole(&whole, entries, policies, config, found)
+    check_whole(&whole, entries, how, config, found)
 }
 
 /// The lengths and angles of a document of which no motion can be made.
@@ -210,15 +239,18 @@ fn gap_finding(bvh: &Bvh) -> impl Fn(&JointGaps) -> Finding {
 fn check_whole(
     bvh: &Bvh,
     mut entries: Vec<CheckEntry>,
-    policies: PositionPolicies,
+    how: CheckAs,
     config: &CheckConfig,
     more: Vec<Finding>,
-) -> Result<Vec<CheckEntry>, MotionError> {
+) -> Result<Checked, MotionError> {
+    let policies = how.positions;
     let mut motion = bvh.to_motion(policies)?;
     let relative = bvh.relative_positions(&motion, policies);
     if let Some(relative) = &relative {
         motion = bvh.to_motion(relative.policies)?;
     }
+    let up = take_up(&motion, how.up);
+    let motion = up.up.stand(motion);
     let skeleton = motion.skeleton();
     let mut findings = check_motion(&motion, &motion.to_global(), config);
     if let Some(rows) = &bvh.motion {
@@ -243,7 +275,7 @@ fn check_whole(
             .into_iter()
             .map(|finding| finding_entry(finding, skeleton)),
     );
-    Ok(entries)
+    Ok(Checked { entries, up })
 }
 
 impl Bvh {

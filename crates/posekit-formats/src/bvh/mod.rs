@@ -39,7 +39,7 @@ mod read;
 mod write;
 
 pub use bridge::{Gap, GapError, JointGaps, bridge_gaps, gaps_by_joint};
-pub use check::{CheckEntry, check, check_with_gaps, reader_entries};
+pub use check::{CheckAs, CheckEntry, Checked, check, check_with_gaps, reader_entries};
 pub use convert::MotionError;
 pub use document::{Bvh, BvhJoint, BvhMotion, EndName, InvalidBvh};
 pub use fix::{Change, ChangeCode, FixConfig, Fixed, NameRepair, fix, unwrap_flips};

@@ -5,6 +5,7 @@
 //! scene, in any order.
 
 mod actor;
+mod company;
 mod options;
 mod room;
 mod show;
@@ -17,6 +18,7 @@ use crate::framing::{Framing, frame_points};
 use crate::scene::{Background, Scene};
 
 pub use actor::Actor;
+pub use company::scale_beside;
 pub use options::{
     Arrangement, AxesShown, CameraChoice, Follow, GhostSide, Ghosts, KeyGhost, Labels,
     SkeletonStyle, StageOptions, Trails,

@@ -41,9 +41,13 @@ pub fn show(ctx: &egui::Context, chooser: &mut Chooser) -> Shown {
         heading(ui, chooser, &mut shown);
         place(ui, chooser);
         field(ui, chooser);
+        // A question takes its room from the list: if it grew the window, all of that would move up a little later,
+        // and the answer be gone from under the pointer.
+        let top = ui.cursor().top();
         let chosen = chosen.or(told(ui, chooser));
+        let taken = ui.cursor().top() - top;
         ui.add_space(GAP);
-        let chosen = chosen.or(list(ui, chooser, screen.height()));
+        let chosen = chosen.or(list(ui, chooser, screen.height(), taken));
         ui.add_space(2.0 * GAP);
         if let Some(chosen) = chosen.or(buttons(ui, chooser, &mut shown)) {
             shown = Shown::Chosen(chosen);
@@ -231,10 +235,17 @@ fn told(ui: &mut Ui, chooser: &mut Chooser) -> Option<Vec<PathBuf>> {
     None
 }
 
-fn list(ui: &mut Ui, chooser: &mut Chooser, screen_height: f32) -> Option<Vec<PathBuf>> {
+/// The files and folders; `taken` is the height that a question above has of it.
+fn list(
+    ui: &mut Ui,
+    chooser: &mut Chooser,
+    screen_height: f32,
+    taken: f32,
+) -> Option<Vec<PathBuf>> {
     /// What stands above and below the list, the frame included.
     const AROUND: f32 = 260.0;
     let height = (screen_height - AROUND).clamp(2.0 * ROW_HEIGHT, 12.0 * ROW_HEIGHT);
+    let height = (height - taken).max(ROW_HEIGHT);
     let mut clicked = None;
     let mut opened = false;
     let count = chooser.row_count();
@@ -254,7 +265,14 @@ fn list(ui: &mut Ui, chooser: &mut Chooser, screen_height: f32) -> Option<Vec<Pa
             {
                 area = area.vertical_scroll_offset(offset_for(pointed, height));
             }
-            area.show_rows(ui, ROW_HEIGHT, count, |ui, rows| {
+            // One row stands for none: it says so.
+            area.show_rows(ui, ROW_HEIGHT, count.max(1), |ui, rows| {
+                if count == 0 {
+                    ui.horizontal(|ui| {
+                        ui.add_space(GAP);
+                        ui.label(RichText::new("Nothing here").color(Palette::in_ui(ui).quiet));
+                    });
+                }
                 for index in rows {
                     let Some(item) = chooser.row(index) else {
                         continue;
@@ -288,9 +306,6 @@ fn list(ui: &mut Ui, chooser: &mut Chooser, screen_height: f32) -> Option<Vec<Pa
                     opened |= response.double_clicked() && item.is_file;
                 }
             });
-            if count == 0 {
-                ui.label(RichText::new("Nothing here").color(Palette::in_ui(ui).quiet));
-            }
         });
     let (index, ticks) = clicked?;
     chooser.click(index, ticks);

@@ -19,6 +19,8 @@ pub struct ViewCamera {
     /// Whether it stands where it was framed last, so that it may be framed anew when the window
     /// changes its shape.
     framed: bool,
+    /// The named side that it looks from, as long as it was not turned since.
+    side: Option<View>,
 }
 
 impl Default for ViewCamera {
@@ -35,6 +37,7 @@ impl Default for ViewCamera {
                 },
             },
             framed: true,
+            side: None,
         }
     }
 }
@@ -70,6 +73,15 @@ impl ViewCamera {
     pub fn look_from(&mut self, view: View, stage: &Stage, aspect: f32) {
         let (yaw_rad, pitch_rad) = view.yaw_pitch_rad(stage.facing_yaw_rad());
         self.adopt(stage, aspect, yaw_rad, pitch_rad);
+        self.side = Some(view);
+    }
+
+    /// Takes the whole of another stage with the same figures into a picture, from the same side of them.
+    pub fn frame_again(&mut self, stage: &Stage, aspect: f32) {
+        match self.side {
+            Some(view) => self.look_from(view, stage, aspect),
+            None => self.frame_all(stage, aspect),
+        }
     }
 
     /// Goes to a point and near to it: `radius` fills most of the picture.
@@ -81,6 +93,15 @@ impl ViewCamera {
         self.framed = false;
     }
 
+    /// The same view of a world in which every length is `factor` times as large.
+    pub fn scale(&mut self, factor: f32) {
+        self.orbit.target *= factor;
+        self.orbit.distance *= factor;
+        if let Projection::Orthographic { height } = &mut self.orbit.projection {
+            *height *= factor;
+        }
+    }
+
     /// Stands where a camera stands and looks at what it looks at.
     pub fn stand_at(&mut self, camera: &Camera, stage: &Stage, time_secs: f64) {
         let away = camera.eye - camera.target;
@@ -90,6 +111,7 @@ impl ViewCamera {
         }
         let level = libm::hypotf(away.x, away.z);
         self.orbit.target = camera.target - stage.followed(time_secs);
+        self.side = None;
         self.orbit.yaw_rad = libm::atan2f(away.x, away.z);
         self.orbit.pitch_rad = libm::atan2f(away.y, level);
         self.orbit.distance = distance;
@@ -99,6 +121,7 @@ impl ViewCamera {
     /// Turns by a drag, given as fractions of the view's height, right and down.
     pub fn turn(&mut self, right: f32, down: f32) {
         let turned = self.orbit.yaw_rad - right * TURN_PER_HEIGHT_RAD;
+        self.side = None;
         self.orbit.yaw_rad = turned % std::f32::consts::TAU;
         let pitch = self.orbit.pitch_rad + down * TURN_PER_HEIGHT_RAD;
         self.orbit.pitch_rad = pitch.clamp(-PITCH_LIMIT_RAD, PITCH_LIMIT_RAD);
@@ -123,6 +146,7 @@ impl ViewCamera {
 
     /// Looks from the other side.
     pub fn turn_around(&mut self) {
+        self.side = None;
         self.orbit.yaw_rad += std::f32::consts::PI;
     }
 

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use glam::Vec3;
 use posekit::check::{CheckConfig, Finding, check_channels, check_motion};
-use posekit::figure::{UpAxis, guess_up};
+use posekit::figure::{UpAxis, take_up};
 use posekit::motion::{FrameTime, GlobalMotion, Motion, PositionPolicies};
 use posekit::pose::{GlobalPose, LocalPose, forward_kinematics};
 use posekit::rotation::EulerOrder;
@@ -68,10 +68,9 @@ impl Reading {
     /// pose says, where that is clear.
     #[must_use]
     pub fn seen_in(motion: &Motion) -> Self {
-        let known = guess_up(motion).filter(|guess| guess.is_known());
         Self {
             positions: PositionPolicies::default(),
-            up: known.map_or(UpAxis::Y, |guess| guess.up),
+            up: take_up(motion, None).up,
         }
     }
 
@@ -80,14 +79,7 @@ impl Reading {
     /// # Errors
     /// If the document makes no skeleton or no motion.
     pub fn motion_of(self, document: &Bvh) -> Result<Motion, MotionError> {
-        Ok(self.stood(document.to_motion(self.positions)?))
-    }
-
-    fn stood(self, motion: Motion) -> Motion {
-        match self.up {
-            UpAxis::Y => motion,
-            up => motion.turned(up.y_up_from_file()),
-        }
+        Ok(self.up.stand(document.to_motion(self.positions)?))
     }
 }
 
@@ -126,7 +118,7 @@ impl Clip {
     ) -> Result<Self, MotionError> {
         let motion = import.document.to_motion(PositionPolicies::default())?;
         let reading = Reading::seen_in(&motion);
-        let motion = reading.stood(motion);
+        let motion = reading.up.stand(motion);
         let clip = Self::new(name.into(), source, import.document, import.report, motion);
         Ok(Self { reading, ..clip })
     }
@@ -258,14 +250,6 @@ impl Clip {
         let mut global = GlobalPose::default();
         forward_kinematics(self.skeleton(), &self.local_pose(time_secs), &mut global);
         global
-    }
-
-    /// The motion with all lengths multiplied; `None` when they get too large for numbers.
-    #[must_use]
-    pub fn scaled_motion(&self, factor: f64) -> Option<Motion> {
-        let mut document = (*self.document).clone();
-        posekit_formats::bvh::edit::scale(&mut document, factor).ok()?;
-        self.reading.motion_of(&document).ok()
     }
 
     /// The nearest frame to a time.

@@ -176,11 +176,15 @@ impl Take {
                 camera: TakeCamera::Scene(Box::new(camera.view.clone())),
                 film,
             },
-            None => Self {
-                stage: session.film_stage(),
-                camera: TakeCamera::View(session.camera.clone()),
-                film,
-            },
+            None => {
+                let stage = session.film_stage();
+                let camera = TakeCamera::View(session.film_camera(&stage));
+                Self {
+                    stage,
+                    camera,
+                    film,
+                }
+            }
         }
     }
 

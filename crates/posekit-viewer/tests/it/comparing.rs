@@ -1,6 +1,7 @@
 //! Several clips: what is active, what is on the stage, what stays when one goes.
 
 use posekit::skeleton::JointId;
+use posekit_render::camera::View;
 use posekit_render::theme::CharacterColors;
 use posekit_viewer::command::{self, Command};
 use posekit_viewer::state::display::{Compare, FollowMode, PoseShown, Style};
@@ -221,6 +222,46 @@ fn figures_in_different_units_are_made_equally_tall() {
         (scales[0] - 1.0).abs() < 1e-6 && (scales[1] - 0.01).abs() < 1e-4,
         "{scales:?}"
     );
+}
+
+/// In the view figures of other units are as tall as the active one, in a film as the first, as the command has it:
+/// which of them is worked on changes nothing in the film, nor does it where the view was turned by hand.
+#[test]
+fn a_film_of_figures_in_different_units_is_the_same_whichever_is_active() {
+    use posekit_viewer::work::export::{ExportOptions, Take};
+    let mut session = session();
+    let in_cm = super::clips::arm_text(10).replace("OFFSET 0 2 0", "OFFSET 0 200 0");
+    let in_cm = in_cm.replace("OFFSET 0 1 0", "OFFSET 0 100 0");
+    let tall = super::clips::arm_text(10).replace("OFFSET 0 2 0", "OFFSET 0 5 0");
+    for (name, text) in [("cm.bvh", in_cm), ("tall.bvh", tall)] {
+        let clip = posekit_viewer::load::read_clip(name, text.as_bytes()).expect("a valid file");
+        session.open_beside(clip);
+    }
+    session.transport.pause();
+    let ids: Vec<_> = session.clips().iter().map(|open| open.id).collect();
+    let films = |session: &mut Session, turn: f32| {
+        let film = |id: &_| {
+            session.activate_among(*id);
+            session.look_from(View::ThreeQuarter);
+            if turn != 0.0 {
+                session.camera.turn(turn, 0.0);
+            }
+            let scene = Take::of(session, &ExportOptions::default()).scene(0.1);
+            let joints = scene.models.iter().map(|model| model.joints.clone());
+            (scene.camera, joints.collect::<Vec<_>>())
+        };
+        ids.iter().map(film).collect::<Vec<_>>()
+    };
+    for film in films(&mut session, 0.0).windows(2) {
+        assert!(film[0] == film[1], "framed");
+    }
+    // What was turned by hand keeps its distance in statures.
+    let [first, in_cm, _] = &films(&mut session, 0.3)[..] else {
+        panic!("three films");
+    };
+    assert!(first.1 == in_cm.1);
+    let size = first.0.eye.length();
+    assert!(first.0.eye.distance(in_cm.0.eye) < 0.02 * size);
 }
 
 /// The time line of several clips is as long as the longest, whichever is the active one; those that are over

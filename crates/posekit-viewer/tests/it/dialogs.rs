@@ -112,6 +112,33 @@ fn a_range_is_saved_where_the_system_has_no_dialogs() {
     assert_eq!(remembered.as_deref(), Some(&*place.0));
 }
 
+/// Whoever has seen a button and goes to it with the pointer finds it there: neither a question nor an empty
+/// folder moves the window that asks.
+#[test]
+fn the_chooser_stays_where_it_is_whatever_it_says() {
+    let place = Place::new("stays");
+    std::fs::create_dir(place.0.join("empty")).expect("a folder");
+    let mut window = window(&place);
+    asks(&mut window, Modifiers::COMMAND, Key::S);
+    let cancel = |window: &Window| window.get_by_label("Cancel").rect();
+    let before = cancel(&window);
+    let stays = |window: &Window| before.center().distance(cancel(window).center()) < 1.0;
+    clears(&mut window);
+    types(&mut window, "empty/one");
+    until(&mut window, |viewer| {
+        viewer.chooser().is_some_and(|it| it.row_count() == 0)
+    });
+    window.run_steps(4);
+    window.get_by_label("Nothing here");
+    assert!(stays(&window), "in an empty folder");
+    clears(&mut window);
+    types(&mut window, "nowhere/one");
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    window.run_steps(4);
+    window.get_by_label("Make the folder");
+    assert!(stays(&window), "with a question");
+}
+
 #[test]
 fn what_is_there_is_not_replaced_without_a_yes() {
     let place = Place::new("replaces");

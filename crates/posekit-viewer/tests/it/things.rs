@@ -300,6 +300,33 @@ fn two_views_that_are_taken_make_a_camera_move() {
     }
 }
 
+/// With several cameras the view that turns away from one and is taken is that one's, though nothing is picked.
+#[test]
+fn a_view_that_is_taken_goes_to_the_camera_that_was_looked_through() {
+    let mut session = session();
+    for _ in 0..2 {
+        session.add_thing(NewThing::Camera);
+    }
+    session.pick(None);
+    session.look_through(Some(1));
+    let place = |session: &Session, index| vector(session, Lane::CameraPosition(index));
+    let first = place(&session, 0);
+    // The arrows of the view turn it away from the camera.
+    for _ in 0..3 {
+        apply(Command::TurnLeft, &mut session);
+    }
+    assert_eq!(session.looks_through(), None);
+    let view = session.view_camera();
+    session.camera_to_view();
+    assert_eq!(session.looks_through(), Some(1));
+    assert_eq!(place(&session, 0), first, "the first stays where it is");
+    assert!(place(&session, 1).as_vec3().distance(view.eye) < 1e-4);
+    // And it is looked through again.
+    apply(Command::TurnLeft, &mut session);
+    apply(Command::LookThrough, &mut session);
+    assert_eq!(session.looks_through(), Some(1));
+}
+
 /// Without auto-key a view is set as everything else is: for good while nothing is keyed, else until
 /// another time is shown.
 #[test]

@@ -102,7 +102,7 @@ impl Tree<'_> {
     fn limb_pairs(&self) -> Vec<LimbPair> {
         let symmetric = self.skeleton.symmetric_pairs();
         let mut taken = vec![false; self.skeleton.joint_count()];
-        for pair in &symmetric {
+        for pair in symmetric {
             taken[pair.left.index()] = true;
             taken[pair.right.index()] = true;
         }

@@ -30,13 +30,10 @@ pub fn body_joints(motion: &Motion) -> Vec<JointId> {
         }
         _ => false,
     };
-    let references: Vec<JointId> = skeleton
-        .roots()
-        .filter(|&root| is_reference(root))
-        .collect();
+    // A file may have as many roots as joints: each is asked once.
     skeleton
         .joints()
-        .filter(|joint| !references.contains(joint))
+        .filter(|&joint| skeleton.parent(joint).is_some() || !is_reference(joint))
         .collect()
 }
 

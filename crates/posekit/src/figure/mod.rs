@@ -13,4 +13,4 @@ use extent::frames_looked_at;
 pub use extent::{body_extent, body_joints};
 pub use rest_pose::{ArmPosture, RestPose, RestPoseKind};
 pub use unit::{LengthUnit, STATURE_RANGE_METRES, guess_unit};
-pub use up::{NotAnAxis, UpAxis, UpEvidence, UpGuess, guess_up};
+pub use up::{NotAnAxis, UpAxis, UpEvidence, UpGuess, UpTaken, guess_up, take_up};

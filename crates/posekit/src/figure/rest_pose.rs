@@ -149,7 +149,7 @@ pub(super) fn legs_and_arms(
     }
     let mut limbs: Vec<LimbPair> = skeleton
         .symmetric_pairs()
-        .into_iter()
+        .iter()
         .filter(|pair| {
             [pair.left, pair.right]
                 .iter()

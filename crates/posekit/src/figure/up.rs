@@ -90,6 +90,15 @@ impl UpAxis {
         if self.is_positive() { unit } else { -unit }
     }
 
+    /// A motion of a world with this axis up, stood on Y.
+    #[must_use]
+    pub fn stand(self, motion: Motion) -> Motion {
+        match self {
+            Self::Y => motion,
+            up => motion.turned(up.y_up_from_file()),
+        }
+    }
+
     /// The name on the command line: `y`, `-z`.
     pub const fn name(self) -> &'static str {
         match self {
@@ -184,6 +193,36 @@ impl UpGuess {
             self.evidence,
             UpEvidence::RestPoseAndMotion | UpEvidence::RestPose
         )
+    }
+}
+
+/// The axis that is taken as up, and why.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct UpTaken {
+    /// The axis.
+    pub up: UpAxis,
+    /// Whether somebody said so.
+    pub is_said: bool,
+    /// What the figure makes probable; not asked where somebody said it.
+    pub guess: Option<UpGuess>,
+}
+
+/// The axis of a motion that is taken as up, by everything that draws or measures: what somebody said, or else
+/// the guessed axis where that is [as good as known](UpGuess::is_known), or else Y.
+pub fn take_up(motion: &Motion, said: Option<UpAxis>) -> UpTaken {
+    if let Some(up) = said {
+        return UpTaken {
+            up,
+            is_said: true,
+            guess: None,
+        };
+    }
+    let guess = guess_up(motion);
+    let known = guess.filter(|guess| guess.is_known());
+    UpTaken {
+        up: known.map_or(UpAxis::Y, |guess| guess.up),
+        is_said: false,
+        guess,
     }
 }
 

@@ -15,6 +15,7 @@ mod frame_time;
 mod global;
 #[cfg(test)]
 mod same_bits;
+mod scaled;
 mod turned;
 
 use std::fmt;

@@ -4,6 +4,7 @@ use std::collections::HashSet;
 
 use glam::{Quat, Vec3};
 
+use super::symmetry::KnownPairs;
 use super::{JointId, Link, Skeleton};
 use crate::range::{LONGEST_LENGTH, are_lengths};
 
@@ -208,6 +209,7 @@ impl SkeletonBuilder {
                 .map(|joint| joint.rest_rotation)
                 .collect(),
             end_sites: self.joints.iter().map(|joint| joint.is_end_site).collect(),
+            known_pairs: KnownPairs::default(),
         };
         skeleton
             .names

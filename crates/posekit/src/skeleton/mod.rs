@@ -15,6 +15,7 @@ use glam::{Quat, Vec3};
 
 pub use builder::{SkeletonBuilder, SkeletonError};
 pub use chain::Chain;
+use symmetry::KnownPairs;
 pub use symmetry::{PairEvidence, SymmetricPair};
 
 /// A joint of one skeleton: its index in topological order.
@@ -62,6 +63,7 @@ pub struct Skeleton {
     rest_translations: Vec<Vec3>,
     rest_rotations: Vec<Quat>,
     end_sites: Vec<bool>,
+    known_pairs: KnownPairs,
 }
 
 impl Skeleton {
@@ -160,11 +162,23 @@ impl Skeleton {
     /// The same skeleton in a world turned by `turn` about the origin: only the roots' rest transforms change.
     pub(crate) fn turned(&self, turn: Quat) -> Self {
         let mut turned = self.clone();
+        // Left and right may be others where names do not say them.
+        turned.known_pairs = KnownPairs::default();
         for root in self.roots() {
             turned.rest_translations[root.index()] = turn * self.rest_translation(root);
             turned.rest_rotations[root.index()] = turn * self.rest_rotation(root);
         }
         turned
+    }
+
+    /// The same skeleton with every length times `factor`.
+    pub(crate) fn scaled(&self, factor: f32) -> Self {
+        let mut scaled = self.clone();
+        scaled.known_pairs = KnownPairs::default();
+        for translation in &mut scaled.rest_translations {
+            *translation *= factor;
+        }
+        scaled
     }
 
     /// The joint's ancestors, its parent first and a root last.

@@ -22,7 +22,7 @@ fn skeleton(joints: &[(&str, &str, f32, f32, f32)]) -> Skeleton {
 }
 
 fn names(skeleton: &Skeleton) -> Vec<(&str, &str, PairEvidence)> {
-    let pairs = skeleton.symmetric_pairs().into_iter();
+    let pairs = skeleton.symmetric_pairs().iter();
     pairs
         .map(|pair| {
             (
@@ -110,6 +110,19 @@ fn geometry_finds_the_same_pairs_when_names_tell_nothing() {
             .iter()
             .all(|pair| pair.found_by == PairEvidence::Geometry)
     );
+}
+
+/// Up, landmarks and mirrored poses all ask for the pairs, and of a wide hierarchy the search takes long: it is made
+/// once for a skeleton and its clones.
+#[test]
+fn pairs_are_looked_for_once() {
+    let skeleton = skeleton(COURSE);
+    let found = skeleton.symmetric_pairs();
+    assert!(!found.is_empty());
+    assert!(std::ptr::eq(found, skeleton.symmetric_pairs()));
+    let clone = skeleton.clone();
+    assert!(std::ptr::eq(found, clone.symmetric_pairs()));
+    assert_eq!(clone, skeleton);
 }
 
 #[test]

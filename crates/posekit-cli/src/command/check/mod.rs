@@ -5,7 +5,8 @@ use std::io::Write;
 
 use clap::{Args, ValueEnum};
 use posekit::check::{CheckConfig, FindingCode, Severity};
-use posekit_formats::bvh::{self, CheckEntry};
+use posekit::figure::{UpAxis, UpTaken};
+use posekit_formats::bvh::{self, CheckAs, CheckEntry};
 use posekit_formats::report::{Import, Location, WarningCode};
 use posekit_formats::urdf;
 use serde_json::{Value, json};
@@ -18,8 +19,10 @@ use crate::inputs::{self, Input};
 use crate::load::{self, Subject};
 use crate::positions::PositionsArgs;
 use crate::program::ProgramArg;
+use crate::reading::{Said, is_scene};
 use crate::similar;
 use crate::text::counted;
+use crate::up::{self, UpArgs};
 
 mod elsewhere;
 mod order;
@@ -33,7 +36,8 @@ use self::summary::Total;
 ///
 /// Of a robot (URDF) it is what the reader noticed, and whether all that moves has a mass. Every finding has a code, and every code has a page in docs/check. The exit code is 1 when
 /// something is an error, or has a code that --deny names. Euler flips are information, since the rotations are right: --warn euler-flip
-/// makes them warnings. Frames count from 0.
+/// makes them warnings. Floor and feet are looked for along the axis on which the rest pose stands, if that is clear,
+/// or else along Y. Frames count from 0.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct CheckArgs {
@@ -50,6 +54,8 @@ pub(crate) struct CheckArgs {
     #[arg(long, value_name = "SEVERITY")]
     min: Option<Minimum>,
     #[command(flatten)]
+    up: UpArgs,
+    #[command(flatten)]
     positions: PositionsArgs,
     /// Say whether these programs read the file as posekit does, and what convert --for would change; may be
     /// repeated
@@ -57,7 +63,7 @@ pub(crate) struct CheckArgs {
         long = "for",
         value_name = "PROGRAM",
         value_delimiter = ',',
-        conflicts_with_all = ["deny", "warn", "min", "summary", "positions", "root_offset"]
+        conflicts_with_all = ["deny", "warn", "min", "summary", "up", "positions", "root_offset"]
     )]
     programs: Vec<ProgramArg>,
     /// Only the table that ends the output: a line for each code, the worst first
@@ -74,6 +80,7 @@ Examples:
   posekit check takes/ --min warning
   posekit check takes/ --summary
   posekit check takes/ --deny euler-flip --deny teleport
+  posekit check zup.bvh --up z
   posekit check walk.bvh --for blender,three
   posekit check --json takes/ | jq -r '.findings[] | .code' | sort | uniq -c";
 
@@ -115,6 +122,8 @@ fn known_code(code: &str) -> Result<String, String> {
 /// What came out for one file.
 struct Checked {
     entries: Vec<CheckEntry>,
+    /// The axis along which floor and feet were looked for; none for a robot.
+    up: Option<UpTaken>,
     /// Whether `posekit fix` repairs something of what is shown.
     is_fixable: bool,
 }
@@ -199,17 +208,31 @@ fn check(
     global: &Global,
 ) -> Result<Checked, Failure> {
     let name = input.name();
+    let said = Said::of(args.positions).and_up(args.up.said());
+    said.refuse_scene(input)?;
     let (subject, gaps) = load::load_subject_with_gaps(input, global)?;
     // `posekit fix` mends motion files.
     let is_motion = matches!(subject, Subject::Clip(_));
+    let mut up = None;
     let mut entries = match subject {
-        Subject::Robot(import) => urdf::check(&import.document, &import.report),
+        Subject::Robot(import) => {
+            said.refuse_robot(&name)?;
+            urdf::check(&import.document, &import.report)
+        }
         Subject::Clip(import) => {
-            let policies = args.positions.policies();
+            let how = CheckAs {
+                positions: args.positions.policies(),
+                up: match is_scene(input) {
+                    true => Some(UpAxis::Y),
+                    false => args.up.said(),
+                },
+            };
             let config = CheckConfig::default();
             let Import { document, report } = &import;
-            bvh::check_with_gaps(document, &gaps, report, policies, &config)
-                .map_err(|error| Failure::new(error.to_string()).in_file(&name))?
+            let checked = bvh::check_with_gaps(document, &gaps, report, how, &config)
+                .map_err(|error| Failure::new(error.to_string()).in_file(&name))?;
+            up = Some(checked.up);
+            checked.entries
         }
     };
     for entry in &mut entries {
@@ -225,6 +248,7 @@ fn check(
                 .iter()
                 .any(|entry| entry.severity >= least && report::is_fixable(entry)),
         entries,
+        up,
     })
 }
 
@@ -242,9 +266,10 @@ fn file_text(args: &CheckArgs, min: Minimum, name: &str, checked: &Checked) -> S
         .filter(|entry| entry.severity >= min.severity())
         .collect();
     if args.json {
-        json_line(name, &shown)
+        json_line(name, &shown, checked.up)
     } else {
-        report::readable(name, &shown, Counts::of(&checked.entries))
+        let up = checked.up.and_then(up::remark);
+        report::readable(name, &shown, Counts::of(&checked.entries), up)
     }
 }
 
@@ -252,9 +277,15 @@ fn location(entry: &CheckEntry) -> Option<Location> {
     entry.place.as_ref()?.location()
 }
 
-fn json_line(name: &str, entries: &[&CheckEntry]) -> String {
+fn json_line(name: &str, entries: &[&CheckEntry], up: Option<UpTaken>) -> String {
     let findings: Vec<Value> = entries.iter().map(|entry| finding_object(entry)).collect();
-    format!("{}\n", json!({ "file": name, "findings": findings }))
+    let object = json!({
+        "file": name,
+        "up": up.map(|taken| taken.up.name()),
+        "up_sureness": up.map(up::taken_sureness),
+        "findings": findings,
+    });
+    format!("{object}\n")
 }
 
 fn finding_object(entry: &CheckEntry) -> Value {

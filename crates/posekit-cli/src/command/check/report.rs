@@ -1,5 +1,7 @@
 //! What `posekit check` prints for people about a file: its findings, the worst first.
 
+use std::collections::BTreeMap;
+
 use anstyle::{AnsiColor, Style};
 use posekit::check::{FindingCode, Severity};
 use posekit_formats::bvh::CheckEntry;
@@ -71,10 +73,19 @@ pub(super) fn is_fixable(entry: &CheckEntry) -> bool {
     was_repaired || entry.code == FindingCode::EulerFlip.code()
 }
 
-/// How many findings a file has, and those that are shown, the worst first.
-pub(super) fn readable(name: &str, entries: &[&CheckEntry], counts: Counts) -> String {
+/// How many findings a file has, what was taken as up if that needs a word, and the findings that are shown, the
+/// worst first.
+pub(super) fn readable(
+    name: &str,
+    entries: &[&CheckEntry],
+    counts: Counts,
+    up: Option<String>,
+) -> String {
     let name = styled(HEADING, &one_line(name));
     let mut text = format!("{name}: {}\n", counts.text());
+    if let Some(up) = up {
+        text += &format!("  {}\n", styled(DIM, &up));
+    }
     let lines = lines(&order::worst_first(entries));
     let place_width = lines.iter().map(|line| width(&line.place)).max();
     for line in &lines {
@@ -113,11 +124,17 @@ impl Line<'_> {
 /// A line for each entry, and one for all of a code that are too many.
 fn lines<'a>(entries: &[&'a CheckEntry]) -> Vec<Line<'a>> {
     let mut lines = Vec::new();
-    for (index, entry) in entries.iter().enumerate() {
-        let is_same =
-            |other: &&&CheckEntry| other.code == entry.code && other.severity == entry.severity;
-        let earlier = entries[..index].iter().filter(is_same).count();
-        let count = entries.iter().filter(is_same).count();
+    let kind = |entry: &CheckEntry| (entry.severity, entry.code);
+    let mut counts: BTreeMap<(Severity, &str), usize> = BTreeMap::new();
+    for entry in entries {
+        *counts.entry(kind(entry)).or_default() += 1;
+    }
+    let mut seen: BTreeMap<(Severity, &str), usize> = BTreeMap::new();
+    for entry in entries {
+        let count = counts.get(&kind(entry)).copied().unwrap_or(0);
+        let so_far = seen.entry(kind(entry)).or_default();
+        let earlier = *so_far;
+        *so_far += 1;
         let limit = match entry.severity {
             Severity::Info => INFOS_SHOWN_PER_CODE,
             Severity::Warning | Severity::Error => SHOWN_PER_CODE,

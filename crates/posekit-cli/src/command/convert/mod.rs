@@ -21,6 +21,7 @@ use crate::load;
 use crate::output::{Destination, Plan, write_whole};
 use crate::positions::PositionsArgs;
 use crate::program::ProgramArg;
+use crate::reading::Said;
 use crate::text::counted;
 use change::{Rename, Trim};
 
@@ -186,6 +187,7 @@ fn convert(
     global: &Global,
 ) -> Result<Done<String>, Failure> {
     let name = input.name();
+    Said::of(args.positions).refuse_scene(input)?;
     let loaded = load::load(input, global)?;
     let mut warnings = loaded.repairs(input);
     let mut bvh = loaded.bvh;

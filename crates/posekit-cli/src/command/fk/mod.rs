@@ -21,6 +21,7 @@ use crate::inputs::{self, Input, Inputs};
 use crate::load;
 use crate::output::Plan;
 use crate::positions::PositionsArgs;
+use crate::reading::Said;
 use crate::sample::Sample;
 use crate::scene_file::{Asked, Part};
 use crate::select::{self, FrameSelection, PointArg};
@@ -217,6 +218,7 @@ fn select_from(
         true => Asked::Nothing,
         false => args.frames.as_ref().map_or(Asked::All, Asked::Frames),
     };
+    Said::of(args.positions).refuse_scene(input)?;
     let (loaded, part) = load::load_part(input, asked, global)?;
     let warnings = loaded.repairs(input);
     let motion = loaded

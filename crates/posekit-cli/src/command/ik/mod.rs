@@ -25,6 +25,7 @@ use crate::inputs::{self, Input};
 use crate::load;
 use crate::output::{Destination, Plan, Target, write_whole};
 use crate::positions::PositionsArgs;
+use crate::reading::Said;
 use crate::select::{FrameSelection, PointArg};
 use crate::text::counted;
 use figure::Figure;
@@ -178,6 +179,7 @@ fn work(
 ) -> Result<(), Failure> {
     let name = input.name();
     let in_file = |failure: Failure| failure.in_file(&name);
+    Said::of(args.positions).refuse_scene(input)?;
     let loaded = load::load(input, global)?;
     if !global.quiet {
         loaded

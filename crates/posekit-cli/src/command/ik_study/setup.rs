@@ -21,6 +21,7 @@ use crate::failure::Failure;
 use crate::inputs;
 use crate::load;
 use crate::positions::PositionsArgs;
+use crate::reading::Said;
 use crate::select;
 
 /// The example of the course for which this command was made: its chain and its target.
@@ -110,6 +111,7 @@ pub(super) fn study(args: &IkStudyArgs, global: &Global) -> Result<Study, Failur
     let [input] = inputs.list.as_slice() else {
         return Err(Failure::usage("a study is of one file"));
     };
+    Said::of(args.positions).refuse_scene(input)?;
     let motion = load::load(input, global)?
         .motion(args.positions.policies())
         .map_err(|failure| failure.in_file(&input.name()))?;

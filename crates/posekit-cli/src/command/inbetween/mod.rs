@@ -22,6 +22,7 @@ use crate::inputs::{self, Input};
 use crate::load;
 use crate::output::{Destination, Plan, write_whole};
 use crate::positions::PositionsArgs;
+use crate::reading::Said;
 use crate::select::FrameSelection;
 use crate::text::counted;
 use compare::Comparison;
@@ -110,6 +111,7 @@ pub(crate) fn run(args: &InbetweenArgs, global: &Global) -> Result<(), Failure> 
         .transpose()?;
     let name = input.name();
     let in_file = |failure: Failure| failure.in_file(&name);
+    Said::of(args.positions).refuse_scene(input)?;
     let loaded = load::load(input, global)?;
     if !global.quiet {
         loaded

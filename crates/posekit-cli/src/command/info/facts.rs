@@ -1,5 +1,7 @@
 //! The facts about a file, before anybody words them.
 
+use std::sync::Arc;
+
 use posekit::body::{Anatomy, NoAnatomy};
 use posekit::check::RelativePositions;
 use posekit::figure::{LengthUnit, RestPose, UpAxis, UpGuess, guess_unit, guess_up};
@@ -60,7 +62,7 @@ pub(super) struct Facts {
     /// Left and right joints that mirror each other, by unique name.
     pub(super) pairs: Vec<(String, String)>,
     /// The skeleton, for the tree.
-    pub(super) skeleton: Skeleton,
+    pub(super) skeleton: Arc<Skeleton>,
 }
 
 impl Facts {
@@ -72,7 +74,8 @@ impl Facts {
         if let Some(relative) = &relative_positions {
             motion = loaded.motion(relative.policies)?;
         }
-        let skeleton = Skeleton::clone(motion.skeleton());
+        // The same one: what it knows of its left and right is not looked for again.
+        let skeleton = Arc::clone(motion.skeleton());
         let up = guess_up(&motion);
         let motion_height = middle_height(&motion, up.map_or(UpAxis::Y, |guess| guess.up));
         let rest_height = f64::from(skeleton.height());

@@ -18,6 +18,7 @@ use crate::failure::Failure;
 use crate::inputs;
 use crate::load::{self, Loaded, Subject};
 use crate::positions::PositionsArgs;
+use crate::reading::Said;
 use facts::Facts;
 
 /// What is in a file: joints, frames, channels, height and unit, rest pose, what the reader noticed
@@ -59,12 +60,15 @@ pub(crate) fn run(args: &InfoArgs, global: &Global) -> Result<(), Failure> {
         inputs::expand(&args.files),
         global,
         |_, input| {
+            let said = Said::of(args.positions);
+            said.refuse_scene(input)?;
             let loaded = match load::load_subject(input, global)? {
                 Subject::Clip(import) => Loaded {
                     bvh: import.document,
                     notices: import.report.warnings,
                 },
                 Subject::Robot(import) => {
+                    said.refuse_robot(&input.name())?;
                     let how = if args.json {
                         robot::object
                     } else {

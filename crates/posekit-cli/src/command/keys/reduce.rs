@@ -20,6 +20,7 @@ use crate::inputs;
 use crate::load;
 use crate::output::{Destination, Plan, write_whole};
 use crate::positions::PositionsArgs;
+use crate::reading::Said;
 use crate::text::{counted, grouped, trimmed};
 
 /// Find few keys that stand for a motion within a stated error
@@ -70,6 +71,13 @@ pub(super) fn run(args: &ReduceArgs, global: &Global) -> Result<(), Failure> {
         return Err(Failure::usage("one motion at a time is reduced"));
     };
     let name = input.name();
+    // Reading and reducing take long: where the result cannot go is said before.
+    let one = inputs::Inputs {
+        list: vec![input.clone()],
+        ..inputs::Inputs::default()
+    };
+    let plan = Plan::new(&args.output, &one, EXTENSION, &global.guard)?;
+    Said::of(args.positions).refuse_scene(input)?;
     let loaded = load::load(input, global)?;
     let in_file = |failure: Failure| failure.in_file(&name);
     let motion = loaded.motion(args.positions.policies()).map_err(in_file)?;
@@ -93,11 +101,7 @@ pub(super) fn run(args: &ReduceArgs, global: &Global) -> Result<(), Failure> {
     }
     let keys = KeyedFrames::of(&motion, &config)
         .map_err(|error| in_file(Failure::new(error.to_string())))?;
-    let one = inputs::Inputs {
-        list: vec![input.clone()],
-        ..inputs::Inputs::default()
-    };
-    match Plan::new(&args.output, &one, EXTENSION, &global.guard)?.destination(0) {
+    match plan.destination(0) {
         Destination::Stdout => {
             let mut out = console::binary_stdout();
             write(&scene, &keys, args.euler, &motion, &mut out)?;

@@ -10,6 +10,7 @@ use posekit_render::theme::Theme;
 
 use crate::args::RendererArg;
 use crate::positions::PositionsArgs;
+use crate::reading::Said;
 use crate::select::FrameSelection;
 use crate::up::UpArgs;
 
@@ -106,6 +107,13 @@ pub(crate) struct RenderArgs {
     /// What draws: auto is the faster of the graphics card, if there is one, and the CPU
     #[arg(long, value_name = "WHICH", default_value = "auto")]
     pub(super) renderer: RendererArg,
+}
+
+impl RenderArgs {
+    /// What was said of how files are read.
+    pub(super) fn said(&self) -> Said {
+        Said::of(self.positions).and_up(self.up.said())
+    }
 }
 
 impl RenderArgs {

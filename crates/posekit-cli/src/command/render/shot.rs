@@ -12,8 +12,8 @@ use posekit_render::character::MOST_BODY_JOINTS;
 use posekit_render::output::{even_size, spread_times};
 use posekit_render::scene::{Background, MOST_LAMPS, Scene};
 use posekit_render::stage::{
-    Actor, Arrangement, Ghosts, Labels, Prop, PropShape, SkeletonStyle, Stage, StageOptions,
-    Surroundings, Trails, keyed_camera,
+    Actor, Arrangement, Ghosts, Labels, Prop, PropShape, Stage, StageOptions, Surroundings, Trails,
+    keyed_camera,
 };
 use posekit_render::theme::CharacterColors;
 
@@ -21,9 +21,10 @@ use crate::args::Global;
 use crate::failure::Failure;
 use crate::inputs::{self, Input, Source};
 use crate::load;
+use crate::reading::is_scene;
 use crate::scene_file;
 use crate::select;
-use crate::text::{counted, grouped};
+use crate::text::{counted, decimals_to_show, grouped, trimmed};
 
 use super::args::{RenderArgs, Size};
 use super::camera::{self, Chosen};
@@ -79,27 +80,38 @@ impl Shot {
     }
 }
 
+/// A motion that is shown with every input.
+#[derive(Clone, Debug)]
+pub(super) struct Companion {
+    /// What messages call it.
+    name: String,
+    motion: Arc<Motion>,
+}
+
 /// The motions that are shown with every input.
-pub(super) fn companions(args: &RenderArgs, global: &Global) -> Result<Vec<Arc<Motion>>, Failure> {
-    let mut motions = Vec::new();
+pub(super) fn companions(args: &RenderArgs, global: &Global) -> Result<Vec<Companion>, Failure> {
+    let mut companions = Vec::new();
     for name in args.overlay.iter().chain(&args.beside) {
-        motions.extend(named_motions(args, name, global)?);
+        companions.extend(named_motions(args, name, global)?);
     }
-    Ok(motions)
+    Ok(companions)
 }
 
 fn named_motions(
     args: &RenderArgs,
     name: &OsString,
     global: &Global,
-) -> Result<Vec<Arc<Motion>>, Failure> {
+) -> Result<Vec<Companion>, Failure> {
     let inputs = inputs::expand(std::slice::from_ref(name));
     if let Some((_, failure)) = inputs.failures.into_iter().next() {
         return Err(failure);
     }
     let motions = inputs.list.iter().map(|input| {
         let (motion, _) = motion_of(args, input, global)?;
-        Ok(Arc::new(motion))
+        Ok(Companion {
+            name: input.name(),
+            motion: Arc::new(motion),
+        })
     });
     motions.collect()
 }
@@ -109,6 +121,7 @@ fn motion_of(
     input: &Input,
     global: &Global,
 ) -> Result<(Motion, Vec<String>), Failure> {
+    args.said().refuse_scene(input)?;
     let loaded = load::load(input, global)?;
     let mut warnings = loaded.repairs(input);
     let policies = args.positions.policies();
@@ -117,6 +130,10 @@ fn motion_of(
         .map_err(|failure| failure.in_file(&input.name()))?;
     if !args.positions.is_given() {
         warnings.extend(loaded.relative_positions(input, &motion, policies));
+    }
+    if is_scene(input) {
+        // It stands in its world as it does among its own lights and things.
+        return Ok((motion, warnings));
     }
     let (motion, remark) = args.up.stand(&input.name(), motion);
     warnings.extend(remark);
@@ -127,11 +144,12 @@ fn motion_of(
 pub(super) fn prepare(
     args: &RenderArgs,
     product: Product,
-    companions: &[Arc<Motion>],
+    companions: &[Companion],
     input: &Input,
     global: &Global,
 ) -> Result<Shot, Failure> {
     let name = input.name();
+    args.said().refuse_scene(input)?;
     let scene = match &input.source {
         Source::File(path) if scene_file::is_scene(path) => {
             Some((path, scene_file::read(path, &global.guard)?))
@@ -179,7 +197,7 @@ pub(super) fn prepare(
     let frames_per_sec = args
         .fps
         .unwrap_or_else(|| default_rate(product, motion.frame_time_secs()));
-    let longest = companions.iter().map(|motion| motion.duration_secs());
+    let longest = companions.iter().map(|it| it.motion.duration_secs());
     let end_secs = longest.fold(motion.duration_secs(), f64::max);
     let frame_count = part
         .as_ref()
@@ -211,11 +229,22 @@ pub(super) fn prepare(
             None
         }
     };
-    let motions = std::iter::once(Arc::new(motion)).chain(companions.iter().cloned());
-    let actors = motions
-        .enumerate()
-        .map(|(index, motion)| actor(motion, style, index));
-    let actors: Vec<Actor> = actors.collect();
+    let first = Actor::new(Arc::new(motion), style, CharacterColors::of(0));
+    let stature = first.stature();
+    let mut actors = vec![first];
+    for (companion, color) in companions.iter().zip(1..) {
+        let motion = Arc::clone(&companion.motion);
+        let actor = Actor::new(motion, style, CharacterColors::of(color));
+        let (actor, scale) = actor.beside(stature);
+        actors.push(actor);
+        notes.extend(scale.map(|factor| {
+            format!(
+                "beside it {} is drawn {} times as large as its file says: it is told in another unit of length",
+                companion.name,
+                trimmed(factor.into(), decimals_to_show(factor.into()))
+            )
+        }));
+    }
     if actors.first().is_some_and(Actor::has_too_many_joints) {
         let most = grouped(MOST_BODY_JOINTS);
         warnings.push(format!(
@@ -253,7 +282,7 @@ struct Part {
 fn part_of(
     args: &RenderArgs,
     product: Product,
-    companions: &[Arc<Motion>],
+    companions: &[Companion],
     shot: &scene::Shot,
 ) -> Result<Option<Part>, Failure> {
     if args.rest {
@@ -311,10 +340,6 @@ fn surroundings(scene: &scene::Scene, file: &str, warnings: &mut Vec<String>) ->
             .collect(),
         start_secs: scene.range_secs[0],
     }
-}
-
-fn actor(motion: Arc<Motion>, style: SkeletonStyle, index: usize) -> Actor {
-    Actor::new(motion, style, CharacterColors::of(index))
 }
 
 fn size(args: &RenderArgs, product: Product) -> (Size, Option<String>) {
@@ -410,7 +435,7 @@ fn even_times(start: f64, end: f64, frames_per_sec: f64) -> Result<Vec<f64>, Fai
 fn options(
     args: &RenderArgs,
     motion: &Motion,
-    companions: &[Arc<Motion>],
+    companions: &[Companion],
 ) -> Result<StageOptions, Failure> {
     let skeleton = motion.skeleton();
     let trails = (!args.trails.is_empty())
@@ -460,9 +485,9 @@ fn options(
 fn same_joints(
     skeleton: &Skeleton,
     joints: &[JointId],
-    companions: &[Arc<Motion>],
+    companions: &[Companion],
 ) -> Result<(), Failure> {
-    for other in companions.iter().map(|motion| motion.skeleton()) {
+    for other in companions.iter().map(|it| it.motion.skeleton()) {
         let differs = joints.iter().find(|joint| {
             joint.index() >= other.joint_count() || other.name(**joint) != skeleton.name(**joint)
         });

@@ -6,12 +6,14 @@ use posekit::body::NoAnatomy;
 use posekit::keyframe::edit::SAME_TIME_SECS;
 use posekit::skeleton::JointId;
 use posekit_render::stage::{
-    Actor, Arrangement, AxesShown, GhostSide, Ghosts, KeyGhost, Labels, Stage, StageOptions, Trails,
+    Actor, Arrangement, AxesShown, GhostSide, Ghosts, KeyGhost, Labels, Stage, StageOptions,
+    Trails, scale_beside,
 };
 use posekit_render::theme::{CharacterColors, Theme};
 
 use super::{OpenClip, Session};
 use crate::state::animate::Owner;
+use crate::state::camera::ViewCamera;
 use crate::state::clip::{Clip, rest_motion};
 use crate::state::display::{Display, Look, PoseShown};
 use crate::state::mode::Mode;
@@ -19,10 +21,6 @@ use crate::state::things::surroundings;
 
 /// How many ghosts there are before and after the figure.
 const GHOSTS_EACH_SIDE: usize = 3;
-
-/// Figures whose heights differ by this factor are told in different units: there are no people
-/// four times as tall as others.
-const OTHER_UNIT: f32 = 4.0;
 
 impl Session {
     pub(super) fn set_stage(&mut self) {
@@ -91,7 +89,8 @@ impl Session {
     }
 
     /// The stage as it is seen, for a film of it: bodies are fitted to the motions as they are now, and
-    /// nothing is held in a pose or a place that is not in the motion.
+    /// nothing is held in a pose or a place that is not in the motion. Figures told in other units stand beside
+    /// the first, as in pictures of `posekit render`.
     #[must_use]
     pub fn film_stage(&self) -> Stage {
         let mut stage = match self.pose_shown {
@@ -99,10 +98,16 @@ impl Session {
             PoseShown::Motion => {
                 let style = self.display.style.to_render();
                 let actors = self.shown().map(|open| {
-                    let motion = Arc::clone(open.on_stage().motion());
+                    let motion = Arc::clone(open.actor.motion());
                     Actor::new(motion, style, CharacterColors::of(open.color))
                 });
-                Stage::new(actors.collect(), self.stage_options())
+                let mut actors: Vec<Actor> = actors.collect();
+                let kept = self.kept_in_films();
+                if let Some(stature) = actors.get(kept).map(Actor::stature) {
+                    let beside = |actor: Actor| actor.beside(stature).0;
+                    actors = actors.into_iter().map(beside).collect();
+                }
+                Stage::new(actors, self.stage_options())
             }
         };
         let of_scene = self.authored().map(|it| surroundings(it.scene()));
@@ -110,31 +115,57 @@ impl Session {
         stage
     }
 
+    /// Which of the figures on the stage keeps its unit of length in films: the one that stands among the things
+    /// of its scene, or else the first, as in pictures of the command.
+    fn kept_in_films(&self) -> usize {
+        let of_scene = self.active_actor().filter(|_| self.authored().is_some());
+        of_scene.unwrap_or(0)
+    }
+
+    /// The camera of the view, for the film's stage: what is seen keeps the unit of the active clip, and the film
+    /// may have another.
+    #[must_use]
+    pub fn film_camera(&self, stage: &Stage) -> ViewCamera {
+        let mut camera = self.camera.clone();
+        let statures = |stage: &Stage| -> Vec<f32> {
+            let actors = stage.actors().iter();
+            actors.map(Actor::stature).collect()
+        };
+        let (seen, filmed) = (statures(&self.stage), statures(stage));
+        if seen == filmed {
+            return camera;
+        }
+        if camera.is_framed() {
+            camera.frame_again(stage, self.aspect);
+            return camera;
+        }
+        let kept = self.kept_in_films();
+        let sizes = seen.get(kept).zip(filmed.get(kept));
+        if let Some(factor) = sizes.and_then(|(seen, filmed)| scale_beside(*seen, *filmed)) {
+            camera.scale(factor);
+        }
+        camera
+    }
+
     /// Figures that are told in another unit of length than the active one are made as tall as it
-    /// is, or one would be a giant to the other.
+    /// is, or one would be a giant to the other. The active one is what is worked on, in its own unit.
     fn set_scales(&mut self) {
         let active = self.clips.iter().find(|open| Some(open.id) == self.active);
         let Some(stature) = active.map(|open| open.actor.stature()) else {
             return;
         };
-        let display = &self.display;
         for open in self.clips.iter_mut().filter(|open| open.shown) {
-            let factor = stature / open.actor.stature();
-            if !factor.is_finite() || (1.0 / OTHER_UNIT..OTHER_UNIT).contains(&factor) {
+            let Some(factor) = scale_beside(open.actor.stature(), stature) else {
                 open.scaled = None;
-            } else if open
+                continue;
+            };
+            if open
                 .scaled
                 .as_ref()
                 .is_none_or(|(before, _)| *before != factor)
             {
-                let motion = open.clip.scaled_motion(factor.into()).map(Arc::new);
-                open.scaled = motion.map(|motion| {
-                    let colors = CharacterColors::of(open.color);
-                    (
-                        factor,
-                        Actor::new(motion, display.style.to_render(), colors),
-                    )
-                });
+                let (actor, factor) = open.actor.clone().beside(stature);
+                open.scaled = factor.map(|factor| (factor, actor));
             }
         }
     }

@@ -17,6 +17,7 @@ mod mirror_image;
 mod side_in_name;
 
 use std::collections::BTreeMap;
+use std::sync::{Arc, OnceLock};
 
 use super::{JointId, Skeleton};
 use crate::pose::GlobalPose;
@@ -67,16 +68,33 @@ impl Skeleton {
     /// assert_eq!((pairs[0].left, pairs[0].right), (left, right));
     /// # Ok::<(), posekit::skeleton::SkeletonError>(())
     /// ```
-    pub fn symmetric_pairs(&self) -> Vec<SymmetricPair> {
-        let rest = GlobalPose::rest(self);
-        let mut pairing = Pairing::new(self);
-        pairing.pair_by_name();
-        pairing.grade_by_geometry(&rest);
-        pairing.pair_below_pairs();
-        pairing.pair_by_geometry(&rest);
-        pairing.pairs.sort_by_key(|pair| pair.left);
-        pairing.pairs
+    ///
+    /// They are looked for once, and kept.
+    pub fn symmetric_pairs(&self) -> &[SymmetricPair] {
+        self.known_pairs.0.get_or_init(|| found_pairs(self).into())
     }
+}
+
+/// The pairs of a skeleton, once they were looked for: what is up, which joint is a knee and how a pose is mirrored
+/// all ask for them. They follow from the rest of the skeleton, and are no part of what makes two equal.
+#[derive(Clone, Debug, Default)]
+pub(super) struct KnownPairs(OnceLock<Arc<[SymmetricPair]>>);
+
+impl PartialEq for KnownPairs {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+fn found_pairs(skeleton: &Skeleton) -> Vec<SymmetricPair> {
+    let rest = GlobalPose::rest(skeleton);
+    let mut pairing = Pairing::new(skeleton);
+    pairing.pair_by_name();
+    pairing.grade_by_geometry(&rest);
+    pairing.pair_below_pairs();
+    pairing.pair_by_geometry(&rest);
+    pairing.pairs.sort_by_key(|pair| pair.left);
+    pairing.pairs
 }
 
 /// The pairs found so far.

@@ -206,6 +206,7 @@ impl Session {
             (Owner::Camera(gone), Some(index)) if gone < index => Some(index - 1),
             (_, looks_through) => looks_through,
         };
+        self.things.left = None;
         self.things.picked = None;
         self.author(|authored| {
             let name = format!("Delete {}", name.to_lowercase());

@@ -23,16 +23,13 @@ impl Session {
         self.things.looks_through = camera;
     }
 
-    /// Looks through the camera that is picked, else through the first; no longer, when it does.
+    /// Looks through the camera that is picked, else through the one that the view left last, else through the first;
+    /// no longer, when it does.
     pub fn toggle_look_through(&mut self) {
-        let picked = match self.picked().map(|picked| picked.owner) {
-            Some(Owner::Camera(index)) => Some(index),
-            _ => None,
-        };
         let first = || self.authored().and(Some(0));
         self.things.looks_through = match self.looks_through() {
             Some(_) => None,
-            None => picked.or_else(first),
+            None => self.camera_meant().or_else(first),
         };
     }
 
@@ -42,7 +39,19 @@ impl Session {
             let time = self.stage_time_secs();
             self.camera.stand_at(&camera, &self.stage, time);
         }
-        self.things.looks_through = None;
+        self.things.left = self.things.looks_through.take();
+    }
+
+    /// The camera that commands are about where they name none: the one that is picked, that is looked through, or that
+    /// the view has just turned away from.
+    fn camera_meant(&self) -> Option<usize> {
+        let picked = match self.picked().map(|picked| picked.owner) {
+            Some(Owner::Camera(index)) => Some(index),
+            _ => None,
+        };
+        let count = self.authored()?.scene().cameras.len();
+        let left = self.things.left.filter(|index| *index < count);
+        picked.or(self.looks_through()).or(left)
     }
 
     /// The camera of the scene that the view looks through, as it stands now.
@@ -54,17 +63,13 @@ impl Session {
         Some(keyed_camera(view, self.scene_secs(), self.stage.stature()))
     }
 
-    /// The scene's camera takes the place of the view: the one that is picked or looked through, else the
-    /// first; a new one where there is none. The view then looks through it.
+    /// The scene's camera takes the place of the view: the one that is picked or looked through, or was until the
+    /// view turned away from it, else the first; a new one where there is none. The view then looks through it.
     pub fn camera_to_view(&mut self) {
         let Some(count) = self.authored().map(|it| it.scene().cameras.len()) else {
             return;
         };
-        let picked = match self.picked().map(|picked| picked.owner) {
-            Some(Owner::Camera(index)) => Some(index),
-            _ => None,
-        };
-        let index = picked.or(self.looks_through()).unwrap_or(0);
+        let index = self.camera_meant().unwrap_or(0);
         let view = self.view_camera();
         let values = [
             (Lane::CameraPosition(index), view.eye),

@@ -36,6 +36,8 @@ pub(super) struct Things {
     pending: Option<PendingValues>,
     held: Option<Held>,
     looks_through: Option<usize>,
+    /// The camera that was looked through last, while the view has turned away from it.
+    left: Option<usize>,
     frame_aspect: f32,
 }
 
@@ -46,6 +48,7 @@ impl Default for Things {
             pending: None,
             held: None,
             looks_through: None,
+            left: None,
             frame_aspect: FRAME_ASPECT,
         }
     }
