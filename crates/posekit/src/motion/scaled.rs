@@ -27,7 +27,6 @@ impl Motion {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::pose::GlobalPose;
 
     #[test]
