@@ -133,7 +133,9 @@ impl Viewer {
                 .default_size(190.0)
                 .size_range(LOWEST_BELOW..=most.min(480.0))
                 .show(ui, |ui| {
-                    curves::show(ui, &mut self.session, &mut self.curves)
+                    curves::show(ui, &mut self.session, &mut self.curves);
+                    // A panel that is not full becomes as small as what is in it, and its edge cannot be dragged.
+                    ui.take_available_space();
                 });
         }
         self.places.text = text::TextPlaces::NONE;

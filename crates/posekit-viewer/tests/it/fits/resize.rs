@@ -85,6 +85,8 @@ fn resize(size: Vec2, sides: (bool, bool)) {
     press(&mut tour.watched.window, Modifiers::NONE, Key::Space);
     states::set_sides(&mut tour.watched.window, sides);
     drag_all(&mut tour, "view");
+    press(&mut tour.watched.window, Modifiers::NONE, Key::K);
+    drag_all(&mut tour, "view with curves of nothing");
     let faults = std::mem::take(&mut tour.faults);
     assert!(faults.is_empty(), "at {size}:\n{}", faults.join("\n"));
 }
