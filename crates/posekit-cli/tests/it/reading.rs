@@ -80,7 +80,10 @@ fn a_check_finds_the_floor_whichever_axis_is_up() {
         assert_eq!(found(&turned), wanted, "{up}");
         // What was taken is said to people as well.
         let text = folder.run(&["check", &name]).stdout;
-        assert!(text.contains("is up, as the rest pose stands"), "{text}");
+        assert!(
+            text.contains("is up, because the rest pose stands along it"),
+            "{text}"
+        );
         // And whoever knows better says so.
         let lying = of(&[&name, "--up=y"]);
         assert_eq!(

@@ -211,7 +211,7 @@ pub fn show_all(ctx: &egui::Context, notices: &Notices) -> bool {
                 });
             }
             if notices.all().is_empty() {
-                super::row::empty_note(ui, "Nothing was said yet.");
+                super::row::empty_note(ui, "No messages yet.");
             }
         });
     });
@@ -230,7 +230,8 @@ mod tests {
         };
         assert_eq!(within(600.0, 3, true), (3, 3));
         assert_eq!(within(600.0, 1, false), (1, 3));
-        assert_eq!(within(160.0, 3, false), (3, 1));
+        assert_eq!(within(160.0, 3, false), (3, 2));
+        assert_eq!(within(130.0, 3, false), (3, 1));
         assert_eq!(within(100.0, 3, false), (1, 1));
         assert_eq!(within(20.0, 3, true), (1, 1), "one is shown always");
         for height in [60.0, 90.0, 120.0, 150.0, 200.0, 300.0] {

@@ -85,8 +85,6 @@ fn resize(size: Vec2, sides: (bool, bool)) {
     press(&mut tour.watched.window, Modifiers::NONE, Key::Space);
     states::set_sides(&mut tour.watched.window, sides);
     drag_all(&mut tour, "view");
-    press(&mut tour.watched.window, Modifiers::NONE, Key::K);
-    drag_all(&mut tour, "view with curves of nothing");
     let faults = std::mem::take(&mut tour.faults);
     assert!(faults.is_empty(), "at {size}:\n{}", faults.join("\n"));
 }
@@ -100,4 +98,33 @@ fn edges_are_dragged_in_a_large_window() {
 fn edges_are_dragged_in_a_small_window() {
     resize(vec2(800.0, 600.0), (true, false));
     resize(vec2(800.0, 600.0), (false, true));
+}
+
+/// A panel that is not full, such as the curves of nothing, keeps the height that it is given.
+#[test]
+fn the_edge_of_an_empty_panel_is_dragged() {
+    let mut watched = Watched::new(states::inputs(), vec2(1280.0, 800.0), 1.0, Look::Light);
+    press(&mut watched.window, Modifiers::NONE, Key::Space);
+    let without = edges(&watched);
+    press(&mut watched.window, Modifiers::NONE, Key::K);
+    watched.window.run_steps(4);
+    let top = |watched: &Watched| {
+        let lying = edges(watched)
+            .into_iter()
+            .map(|(_, rect)| rect)
+            .filter(|rect| rect.width() > rect.height());
+        lying
+            .max_by(|a, b| a.width().total_cmp(&b.width()))
+            .expect("an edge above the curves")
+    };
+    assert_eq!(edges(&watched).len(), without.len() + 1);
+    let before = top(&watched);
+    drag(
+        &mut watched.window,
+        before.center() + vec2(0.0, 3.0),
+        vec2(0.0, -80.0),
+    );
+    let after = top(&watched);
+    let moved = before.center().y - after.center().y;
+    assert!((moved - 80.0).abs() < 8.0, "{moved}");
 }
