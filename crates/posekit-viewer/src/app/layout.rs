@@ -49,6 +49,10 @@ impl Viewer {
             asked.commands.extend(pressed);
             return;
         }
+        if egui::Popup::is_any_open(ui.ctx()) && ui.input(|i| i.key_pressed(Key::Escape)) {
+            // It closes the menu or list that is open, and nothing else.
+            return;
+        }
         if self.take_keys_in_lab(ui) || self.take_keys_in_interpolation(ui) {
             return;
         }

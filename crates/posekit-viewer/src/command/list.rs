@@ -220,7 +220,20 @@ fn keys_of(command: Command, is_meant: impl Fn(&Binding) -> bool) -> Vec<String>
     keys
 }
 
-/// The lines that a search finds: by a key, as `g` or `ctrl+s`, or by words of what it does.
+/// Words of the list, and what other programs call the same.
+const ALSO_CALLED: [(&str, &str); 9] = [
+    ("turn", "rotate rotation"),
+    ("move", "grab translate"),
+    ("nearer", "zoom in closer"),
+    ("farther", "zoom out"),
+    ("delete", "remove"),
+    ("curves", "graph plot"),
+    ("into view", "frame focus zoom to fit"),
+    ("frame everything", "focus zoom to fit view all"),
+    ("key", "keyframe"),
+];
+
+/// The lines that a search finds: by a key, as `g` or `ctrl+s`, or by words of what it does, here or in other programs.
 #[must_use]
 pub fn found(lines: &[Line], search: &str) -> Vec<Line> {
     let search = search.trim().to_lowercase();
@@ -235,12 +248,19 @@ pub fn found(lines: &[Line], search: &str) -> Vec<Line> {
         })
     };
     let of_words = |line: &Line| {
-        let text = format!(
+        let mut text = format!(
             "{} {} {}",
             line.says,
             line.group.title(),
             line.keys.join(" ")
-        );
+        )
+        .to_lowercase();
+        for (ours, theirs) in ALSO_CALLED {
+            if text.contains(ours) {
+                text.push(' ');
+                text.push_str(theirs);
+            }
+        }
         crate::state::library::matches(&search, &text)
     };
     let (by_key, rest): (Vec<&Line>, Vec<&Line>) = lines.iter().partition(|line| of_key(line));
@@ -326,6 +346,18 @@ mod tests {
         assert!(says("CTRL+S").contains(&"Save the scene"));
         assert!(says("range starts").contains(&"Range starts here"));
         assert!(says("timeline delete").contains(&"Delete"));
+        for (word, ours) in [
+            ("rotate", "Turn"),
+            ("grab", "Move"),
+            ("zoom", "Nearer"),
+            ("keyframe", "Select all keys"),
+        ] {
+            let found = says(word);
+            assert!(
+                found.iter().any(|line| line.contains(ours)),
+                "{word}: {found:?}"
+            );
+        }
         // Ctrl+O and Shift+Ctrl+O, too.
         let o = found(&lines, "o");
         assert!(

@@ -416,3 +416,23 @@ fn nothing_is_drawn_again_while_nothing_changes() {
     let soonest = delay.min().expect("there is a window");
     assert!(soonest > Duration::from_secs(1), "{soonest:?}");
 }
+
+/// Esc closes the menu that is open, and nothing else: what is selected stays so.
+#[test]
+fn escape_closes_a_menu_first() {
+    let mut window = laptop(vec![input("arm.bvh", 20)]);
+    press(&mut window, Modifiers::NONE, Key::Space);
+    window.get_by_label("Elbow").click();
+    settle(&mut window);
+    let selected = viewer(&window).session().selected();
+    assert!(selected.is_some());
+    window.get_by_label("Camera").click();
+    settle(&mut window);
+    assert!(window.query_by_label_contains("Three-quarter").is_some());
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    settle(&mut window);
+    assert!(window.query_by_label_contains("Three-quarter").is_none());
+    assert_eq!(viewer(&window).session().selected(), selected);
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(viewer(&window).session().selected().is_none());
+}
