@@ -141,6 +141,25 @@ fn a_target_out_of_reach_is_told_and_the_limb_points_to_it() {
     assert!(by > 0.0 && solved.report.residuals[0].distance >= by - 1e-6);
 }
 
+/// What came of a problem is shown while its target is, and not beside another one, or after it was undone.
+#[test]
+fn what_came_of_a_problem_is_told_of_its_own_target_alone() {
+    let mut session = walk_with("LeftHand");
+    pull(&mut session, Vec2::new(300.0, -200.0), 10);
+    session.drop_handle();
+    assert!(session.solved().is_some());
+    session.undo();
+    assert!(session.solved().is_none());
+    session.redo();
+    assert!(session.solved().is_some());
+    session.select(Some(named(&session, "RightFoot")));
+    assert!(session.solved().is_none());
+    session.select(Some(named(&session, "LeftHand")));
+    assert!(session.solved().is_some());
+    session.open(arm());
+    assert!(session.solved().is_none());
+}
+
 #[test]
 fn without_following_the_target_waits_for_the_solver() {
     let mut session = walk_with("LeftHand");

@@ -20,7 +20,8 @@ use crate::state::mode::Space;
 pub(super) struct Limbs {
     settings: IkSettings,
     workspace: IkWorkspace,
-    solved: Option<Solved>,
+    /// What came of the last problem, and of which clip and target that was.
+    solved: Option<(ClipId, Target, Solved)>,
     stepping: Option<Stepping>,
     /// What joints can do within the motion of a clip, as it was when that was asked for first.
     ranges: Option<(ClipId, Arc<JointLimits>)>,
@@ -65,10 +66,11 @@ impl Session {
         }
     }
 
-    /// What came of the last problem.
+    /// What came of the last problem, as long as its clip and its target are the ones shown: an undone one is not.
     #[must_use]
     pub fn solved(&self) -> Option<&Solved> {
-        self.limbs.solved.as_ref()
+        let (id, target, solved) = self.limbs.solved.as_ref()?;
+        (self.active_id() == Some(*id) && self.target() == Some(*target)).then_some(solved)
     }
 
     /// The joint that is brought to its target.
@@ -227,7 +229,7 @@ impl Session {
     }
 
     fn solve_for(&mut self, start: &LocalPose, target: &Target) -> Option<LocalPose> {
-        let clip = Arc::clone(self.active_clip()?);
+        let (id, clip) = (self.active_id()?, Arc::clone(self.active_clip()?));
         let (problem, reach) = self.problem_of(target)?;
         let mut pose = start.clone();
         let limbs = &mut self.limbs;
@@ -236,12 +238,13 @@ impl Session {
         let workspace = &mut limbs.workspace;
         let report = solve(clip.skeleton(), &mut pose, &problem, &solver, workspace);
         let secs = clock.secs();
-        limbs.solved = Some(Solved {
+        let solved = Solved {
             report,
             reach,
             secs,
             solver: solver_name(&solver),
-        });
+        };
+        limbs.solved = Some((id, *target, solved));
         Some(pose)
     }
 
