@@ -156,7 +156,7 @@ fn what_came_of_a_problem_is_told_of_its_own_target_alone() {
     assert!(session.solved().is_none());
     session.select(Some(named(&session, "LeftHand")));
     assert!(session.solved().is_some());
-    session.open(arm());
+    session.open(arm(2));
     assert!(session.solved().is_none());
 }
 
