@@ -1,8 +1,8 @@
 //! Large pages for large arrays.
 //!
 //! New memory comes from the system page by page, each one cleared when it is first touched. For the values of a large
-//! motion, 20,000 pages of 4 KiB, that takes as long as a third of parsing them. Linux gives pages of 2 MiB to who asks
-//! for them (`madvise`, "transparent huge pages"), as NumPy does for its arrays. Elsewhere, and where the system
+//! motion, 20,000 pages of 4 KiB, that takes as long as a third of parsing them. Linux gives pages of 2 MiB to programs
+//! that ask for them (`madvise`, "transparent huge pages"), as NumPy does for its arrays. Elsewhere, and where the system
 //! is set not to, nothing happens.
 #![cfg_attr(
     target_os = "linux",
