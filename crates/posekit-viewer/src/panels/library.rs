@@ -13,8 +13,12 @@ use crate::load::{Job, SummaryNumbers};
 use crate::picture::Texture;
 use crate::state::clip::Source;
 use crate::state::library::{Entry, EntryState, Library};
+use crate::state::names;
 use crate::state::session::{ClipId, OpenClip, Session};
 use crate::theme::{GAP, Palette};
+
+/// What stands between the numbers of a clip.
+const PART: &str = "  \u{b7}  ";
 
 /// Height of a row with a preview picture.
 const CLIP_ROW: f32 = 52.0;
@@ -58,20 +62,39 @@ pub fn show(
             for job in jobs {
                 reading(ui, job);
             }
-            let names = session.clips().iter().map(|open| open.clip.name.as_str());
-            let common = elide::common_prefix(names);
-            for open in session
+            let branches = branches_of_open(session, library);
+            for (open, branches) in session
                 .clips()
                 .iter()
-                .filter(|open| library.passes(&open.clip.name))
+                .zip(&branches)
+                .filter(|(open, _)| library.passes(&open.clip.name))
             {
-                open_clip(ui, session, (open, common), pictures.get(&open.id), asked);
+                open_clip(ui, session, (open, branches), pictures.get(&open.id), asked);
             }
             if session.clips().is_empty() && jobs.is_empty() {
                 row::empty_note(ui, "Nothing is open. Drop a BVH file here.");
             }
             folder(ui, session, library, asked);
         });
+}
+
+/// Where the name of each open clip goes another way than those of the other open ones, and than those of the
+/// folder that it is in: one of two that are alike may be open, and the other listed below.
+fn branches_of_open(session: &Session, library: &Library<Preview>) -> Vec<Vec<usize>> {
+    let names: Vec<&str> = session
+        .clips()
+        .iter()
+        .map(|it| it.clip.name.as_str())
+        .collect();
+    let mut branches = names::branches(&names);
+    for (name, branches) in names.iter().zip(&mut branches) {
+        if let Some(entry) = library.entries.iter().find(|entry| entry.name == *name) {
+            branches.extend_from_slice(&entry.branches);
+            branches.sort_unstable();
+            branches.dedup();
+        }
+    }
+    branches
 }
 
 /// A field to type a filter into.
@@ -128,7 +151,7 @@ fn reading(ui: &mut Ui, job: &Job) {
 fn open_clip(
     ui: &mut Ui,
     session: &Session,
-    (open, common): (&OpenClip, usize),
+    (open, branches): (&OpenClip, &[usize]),
     picture: Option<&Texture>,
     asked: &mut Asked,
 ) {
@@ -148,7 +171,7 @@ fn open_clip(
     let swatch = open.shown.then(|| color_of(open.color));
     let texts = Texts {
         name: &clip.name,
-        common,
+        branches,
         below: &numbers,
         picture,
         swatch,
@@ -257,8 +280,8 @@ fn report_text(clip: &crate::state::clip::Clip) -> String {
 /// What a clip's row shows.
 struct Texts<'a> {
     name: &'a str,
-    /// As many bytes of it are those of all names beside it.
-    common: usize,
+    /// Where it goes another way than the names beside it, in bytes.
+    branches: &'a [usize],
     below: &'a str,
     picture: Option<&'a Texture>,
     swatch: Option<Color32>,
@@ -284,10 +307,13 @@ fn paint_clip(ui: &Ui, rect: Rect, texts: &Texts<'_>, room_for_buttons: f32) {
     };
     let place = line(7.0, 27.0);
     let font = egui::TextStyle::Body.resolve(ui.style());
-    let name = elide::name_within(ui, texts.name, texts.common, &font, place.width());
+    let name = elide::name_within(ui, texts.name, texts.branches, &font, place.width());
     row::text_in(ui, place, RichText::new(name), palette.text);
-    let below = RichText::new(texts.below).small();
-    row::text_in(ui, line(26.0, 46.0), below, palette.quiet);
+    let place = line(26.0, 46.0);
+    let small = egui::TextStyle::Small.resolve(ui.style());
+    let below = elide::parts_within(ui, texts.below, PART, &small, place.width());
+    let below = RichText::new(below).small();
+    row::text_in(ui, place, below, palette.quiet);
     if let Some(color) = texts.swatch {
         let bar = Rect::from_min_size(
             pos2(rect.left() + 1.0, rect.top() + 10.0),
@@ -318,7 +344,7 @@ fn folder(ui: &mut Ui, session: &Session, library: &mut Library<Preview>, asked:
     row::divider(ui);
     let room = ui.available_width() - 80.0;
     let font = egui::FontId::proportional(12.5);
-    let shown = elide::name_within(ui, &name, 0, &font, room);
+    let shown = elide::name_within(ui, &name, &[], &font, room);
     row::heading(ui, &shown, |ui| {
         if icon_button(ui, Icon::Close, "Close the folder").clicked() {
             asked.requests.push(Request::CloseFolder);
@@ -359,9 +385,8 @@ fn folder(ui: &mut Ui, session: &Session, library: &mut Library<Preview>, asked:
                 continue;
             }
         }
-        let common = elide::common_prefix(entries.iter().map(|entry| entry.name.as_str()));
         for entry in entries {
-            listed(ui, entry, common, asked);
+            listed(ui, entry, asked);
         }
     }
     if let Some(group) = toggled {
@@ -402,7 +427,7 @@ fn group_row(ui: &mut Ui, group: &str, count: usize, is_open: bool) -> egui::Res
 }
 
 /// A clip of the folder that is not open.
-fn listed(ui: &mut Ui, entry: &Entry<Preview>, common: usize, asked: &mut Asked) {
+fn listed(ui: &mut Ui, entry: &Entry<Preview>, asked: &mut Asked) {
     // Rows that are scrolled away are not worth their text.
     let next = ui.next_widget_position();
     let place = Rect::from_min_size(next, vec2(ui.available_width(), CLIP_ROW));
@@ -426,7 +451,7 @@ fn listed(ui: &mut Ui, entry: &Entry<Preview>, common: usize, asked: &mut Asked)
     };
     let texts = Texts {
         name: &entry.name,
-        common,
+        branches: &entry.branches,
         below: &below,
         picture,
         swatch: None,

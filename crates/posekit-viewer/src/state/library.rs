@@ -12,6 +12,8 @@ pub struct Entry<T> {
     pub name: String,
     /// The folder that it is in, as seen from the folder that is listed; empty for that one itself.
     pub group: String,
+    /// Where its name goes another way than others of the folder, in bytes.
+    pub branches: Vec<usize>,
     /// What is known of it.
     pub state: EntryState<T>,
 }
@@ -77,10 +79,16 @@ impl<T> Library<T> {
                 path,
                 name: name.to_owned(),
                 group: group.to_owned(),
+                branches: Vec::new(),
                 state: EntryState::Unknown,
             }
         };
         self.entries = files.into_iter().map(entry).collect();
+        let names: Vec<&str> = self.entries.iter().map(|it| it.name.as_str()).collect();
+        let branches = super::names::branches(&names);
+        for (entry, branches) in self.entries.iter_mut().zip(branches) {
+            entry.branches = branches;
+        }
         self.shortage = None;
         self.closed.clear();
         self.folder = Some(folder);

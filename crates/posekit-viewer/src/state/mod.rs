@@ -13,6 +13,7 @@ pub mod ik;
 pub mod interpolation;
 pub mod library;
 pub mod mode;
+pub mod names;
 pub mod notices;
 pub mod pick;
 pub mod readout;

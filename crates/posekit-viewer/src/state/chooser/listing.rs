@@ -17,6 +17,8 @@ pub struct Item {
     pub name: String,
     /// Where it is. A name that is not Unicode is whole only here.
     pub path: PathBuf,
+    /// Where its name goes another way than others of the folder, in bytes.
+    pub branches: Vec<usize>,
 }
 
 impl Item {
@@ -74,10 +76,16 @@ pub(super) fn list(folder: &Path) -> Result<Vec<Item>, String> {
             folded: name.to_lowercase(),
             name,
             path,
+            branches: Vec::new(),
         }
     });
     let mut items: Vec<Item> = items.collect();
     items.sort();
+    let names: Vec<&str> = items.iter().map(|item| item.name.as_str()).collect();
+    let branches = crate::state::names::branches(&names);
+    for (item, branches) in items.iter_mut().zip(branches) {
+        item.branches = branches;
+    }
     Ok(items)
 }
 
@@ -104,6 +112,23 @@ pub(super) fn check_writable(folder: &Path) -> Result<(), String> {
             why(&error)
         )),
     }
+}
+
+/// Whether a file is there that its owner, or the system, protects from being written to.
+#[must_use]
+pub fn is_write_protected(path: &Path) -> bool {
+    let denied = || {
+        let opened = std::fs::File::options().write(true).open(path);
+        opened.is_err_and(|error| {
+            let kind = error.kind();
+            matches!(
+                kind,
+                ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem
+            )
+        })
+    };
+    std::fs::metadata(path)
+        .is_ok_and(|meta| meta.is_file() && (meta.permissions().readonly() || denied()))
 }
 
 /// What went wrong with a folder, for people.
