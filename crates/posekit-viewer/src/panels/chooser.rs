@@ -3,8 +3,8 @@
 use egui::text::{CCursor, CCursorRange};
 use egui::text_edit::TextEditState;
 use egui::{
-    Align, Button, EventFilter, Key, Layout, Modifiers, Rect, RichText, ScrollArea, TextEdit, Ui,
-    pos2, vec2,
+    Align, Button, Event, EventFilter, Key, Layout, Rect, RichText, ScrollArea, TextEdit, Ui, pos2,
+    vec2,
 };
 
 use super::{elide, row};
@@ -37,17 +37,20 @@ pub fn show(ctx: &egui::Context, chooser: &mut Chooser) -> Shown {
     let modal = egui::Modal::new(egui::Id::unique("chooser"));
     let modal = modal.frame(super::modal_frame(ctx)).show(ctx, |ui| {
         ui.set_width((screen.width() - 64.0).clamp(180.0, WIDTH));
-        let chosen = take_keys(ui, chooser);
+        take_focus(ui, chooser);
+        let key = take_key(ui);
         heading(ui, chooser, &mut shown);
         place(ui, chooser);
         field(ui, chooser);
+        let chosen = key.and_then(|key| act_on(ui, chooser, key));
         // A question takes its room from the list: if it grew the window, all of that would move up a little later,
         // and the answer be gone from under the pointer.
         let top = ui.cursor().top();
         let chosen = chosen.or(told(ui, chooser));
         let taken = ui.cursor().top() - top;
         ui.add_space(GAP);
-        let chosen = chosen.or(list(ui, chooser, screen.height(), taken));
+        let is_pointing = matches!(key, Some(Stroke::Up | Stroke::Down));
+        let chosen = chosen.or(list(ui, chooser, (screen.height(), taken), is_pointing));
         ui.add_space(2.0 * GAP);
         if let Some(chosen) = chosen.or(buttons(ui, chooser, &mut shown)) {
             shown = Shown::Chosen(chosen);
@@ -63,34 +66,97 @@ fn field_id() -> egui::Id {
     egui::Id::unique("chooser field")
 }
 
-/// Keys that are the chooser's while its field is typed into.
-fn take_keys(ui: &Ui, chooser: &mut Chooser) -> Option<Vec<PathBuf>> {
+/// A key that is the chooser's while its field is typed into.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Stroke {
+    Down,
+    Up,
+    Above,
+    Tick,
+    Complete,
+    Enter,
+}
+
+impl Stroke {
+    fn of(event: &Event) -> Option<Self> {
+        let Event::Key {
+            key,
+            pressed: true,
+            modifiers,
+            ..
+        } = event
+        else {
+            return None;
+        };
+        match key {
+            Key::ArrowUp if modifiers.alt => Some(Self::Above),
+            Key::Space if modifiers.command => Some(Self::Tick),
+            _ if modifiers.alt || modifiers.command => None,
+            Key::ArrowUp => Some(Self::Up),
+            Key::ArrowDown => Some(Self::Down),
+            Key::Tab => Some(Self::Complete),
+            Key::Enter => Some(Self::Enter),
+            _ => None,
+        }
+    }
+}
+
+/// Under this name egui remembers what was typed after a key of the chooser.
+const WAITING: &str = "chooser typed";
+
+/// Takes the first of the chooser's keys. Where pictures are slow, a name and the Enter after it come in one frame:
+/// what was typed before the key is the field's first, what was typed after it waits for the next frame.
+fn take_key(ui: &Ui) -> Option<Stroke> {
+    let waiting = egui::Id::unique(WAITING);
+    let before: Option<Vec<Event>> = ui.data_mut(|data| data.remove_temp(waiting));
     if !ui.memory(|memory| memory.has_focus(field_id())) {
         return None;
     }
-    let pressed = |modifiers, key| ui.input_mut(|i| i.consume_key(modifiers, key));
-    if pressed(Modifiers::NONE, Key::ArrowDown) {
-        chooser.point(true);
+    let is_typed = |event: &Event| {
+        matches!(
+            event,
+            Event::Text(_) | Event::Key { .. } | Event::Paste(_) | Event::Cut | Event::Copy
+        )
+    };
+    let (key, later) = ui.input_mut(|i| {
+        let mut events = before.unwrap_or_default();
+        events.append(&mut i.events);
+        let first = events.iter().enumerate();
+        let first = first.filter_map(|(at, event)| Some((at, Stroke::of(event)?)));
+        let first = first.min_by_key(|(at, _)| *at);
+        let mut later = Vec::new();
+        if let Some((at, _)) = first {
+            let (typed, other) = events.split_off(at + 1).into_iter().partition(is_typed);
+            later = typed;
+            events.pop();
+            events.extend::<Vec<Event>>(other);
+        }
+        i.events = events;
+        (first.map(|(_, key)| key), later)
+    });
+    if !later.is_empty() {
+        ui.data_mut(|data| data.insert_temp(waiting, later));
+        ui.ctx().request_repaint();
     }
-    if pressed(Modifiers::NONE, Key::ArrowUp) {
-        chooser.point(false);
+    key
+}
+
+fn act_on(ui: &Ui, chooser: &mut Chooser, key: Stroke) -> Option<Vec<PathBuf>> {
+    let mut chosen = None;
+    match key {
+        Stroke::Down => chooser.point(true),
+        Stroke::Up => chooser.point(false),
+        Stroke::Above => chooser.go_up(),
+        Stroke::Tick => chooser.tick_pointed(),
+        Stroke::Complete => chooser.complete(),
+        Stroke::Enter => chosen = chooser.enter(),
     }
-    if pressed(Modifiers::ALT, Key::ArrowUp) {
-        chooser.go_up();
-    }
-    if pressed(Modifiers::COMMAND, Key::Space) {
-        chooser.tick_pointed();
-    }
-    if pressed(Modifiers::NONE, Key::Tab) {
-        chooser.complete();
+    if matches!(key, Stroke::Complete | Stroke::Enter) {
         cursor_to_end(ui, chooser);
     }
-    if pressed(Modifiers::NONE, Key::Enter) {
-        let entered = chooser.enter();
-        cursor_to_end(ui, chooser);
-        return entered;
-    }
-    None
+    // What stands above the field was drawn before.
+    ui.ctx().request_repaint();
+    chosen
 }
 
 fn cursor_to_end(ui: &Ui, chooser: &Chooser) {
@@ -181,19 +247,23 @@ fn field(ui: &mut Ui, chooser: &mut Chooser) {
                 cursor_to_end(ui, chooser);
             }
         }
-        // It is typed into at once; of a name that is proposed all but its ending is typed over.
-        let is_new = chooser.take_is_new();
-        let nobody_has_keys = ui.memory(|memory| memory.focused().is_none());
-        if is_new || nobody_has_keys {
+        if ui.memory(|memory| memory.focused().is_none()) {
             field.request_focus();
         }
-        if is_new {
-            let ending = chooser.ask().endings.first().map_or(0, |it| it.len() + 1);
-            let length = chooser.text.chars().count();
-            TextEdit::store_state(ui.ctx(), field_id(), TextEditState::default());
-            select(ui, 0, length.saturating_sub(ending));
-        }
     });
+}
+
+/// It is typed into at once, from its first frame on; of a name that is proposed all but its ending is typed over.
+fn take_focus(ui: &Ui, chooser: &mut Chooser) {
+    if !chooser.take_is_new() {
+        return;
+    }
+    ui.memory_mut(|memory| memory.request_focus(field_id()));
+    ui.data_mut(|data| data.remove_temp::<Vec<Event>>(egui::Id::unique(WAITING)));
+    let ending = chooser.ask().endings.first().map_or(0, |it| it.len() + 1);
+    let length = chooser.text.chars().count();
+    TextEdit::store_state(ui.ctx(), field_id(), TextEditState::default());
+    select(ui, 0, length.saturating_sub(ending));
 }
 
 /// What is wrong, and what is to be answered.
@@ -235,12 +305,12 @@ fn told(ui: &mut Ui, chooser: &mut Chooser) -> Option<Vec<PathBuf>> {
     None
 }
 
-/// The files and folders; `taken` is the height that a question above has of it.
+/// The files and folders; `taken` is the height that a question above has of it. Where the arrows go, it follows.
 fn list(
     ui: &mut Ui,
     chooser: &mut Chooser,
-    screen_height: f32,
-    taken: f32,
+    (screen_height, taken): (f32, f32),
+    is_pointing: bool,
 ) -> Option<Vec<PathBuf>> {
     /// What stands above and below the list, the frame included.
     const AROUND: f32 = 260.0;
@@ -261,7 +331,7 @@ fn list(
                 .min_scrolled_height(height);
             ui.spacing_mut().item_spacing.y = 0.0;
             if let Some(pointed) = chooser.pointed()
-                && ui.input(|i| i.key_pressed(Key::ArrowDown) || i.key_pressed(Key::ArrowUp))
+                && is_pointing
             {
                 area = area.vertical_scroll_offset(offset_for(pointed, height));
             }
@@ -291,7 +361,8 @@ fn list(
                     };
                     icons::draw(ui.painter(), picture, icon, color);
                     let room = rect.with_min_x(rect.left() + 32.0).shrink2(vec2(4.0, 0.0));
-                    let name = elide::name_within(ui, &item.name, 0, &font, room.width());
+                    let name =
+                        elide::name_within(ui, &item.name, &item.branches, &font, room.width());
                     let is_whole = name == item.name;
                     row::text_in(ui, room, RichText::new(name), palette.text);
                     let response = if is_whole {

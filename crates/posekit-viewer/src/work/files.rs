@@ -78,12 +78,19 @@ pub fn picture_parcel(image: &Image, clip_name: &str, frame: usize) -> Result<Pa
     })
 }
 
+/// How the names of what can be opened end: a video of `shot.posekit.toml` is `shot.mp4`.
+const ENDINGS: [&str; 5] = [".posekit.toml", ".bvh", ".urdf", ".glb", ".gltf"];
+
 /// A clip's name without its extension, fit for a file name.
 #[must_use]
 pub fn stem_of(name: &str) -> String {
-    let stem = name
-        .strip_suffix(".bvh")
-        .or(name.strip_suffix(".BVH"))
+    let stem = ENDINGS
+        .iter()
+        .find_map(|ending| {
+            let cut = name.len().checked_sub(ending.len())?;
+            let has_it = name.get(cut..)?.eq_ignore_ascii_case(ending);
+            has_it.then(|| &name[..cut])
+        })
         .unwrap_or(name);
     let fit = |c: char| {
         if c.is_alphanumeric() || "-_.+".contains(c) {
@@ -100,7 +107,8 @@ pub fn stem_of(name: &str) -> String {
     }
 }
 
-/// Writes a file beside its place and renames it into it: a failure leaves the old one whole.
+/// Writes a file beside its place and renames it into it: a failure leaves the old one whole. A link stays one, and what
+/// it leads to is written; a file that is write-protected is not replaced, though its folder would allow that.
 ///
 /// # Errors
 /// Those of the file system, and of `write`.
@@ -109,6 +117,12 @@ pub fn write_beside<E: From<std::io::Error>>(
     path: &std::path::Path,
     write: impl FnOnce(&mut std::io::BufWriter<std::fs::File>) -> Result<(), E>,
 ) -> Result<(), E> {
+    let real = std::fs::canonicalize(path);
+    let path = real.as_deref().unwrap_or(path);
+    if crate::state::chooser::is_write_protected(path) {
+        let kind = std::io::ErrorKind::PermissionDenied;
+        return Err(std::io::Error::new(kind, "it is write-protected").into());
+    }
     let mut name = path.file_name().unwrap_or_default().to_owned();
     name.push(format!(".{}.tmp", std::process::id()));
     let beside = path.with_file_name(name);
@@ -125,4 +139,59 @@ pub fn write_beside<E: From<std::io::Error>>(
         drop(std::fs::remove_file(&beside));
     }
     outcome
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_proposed_name_has_no_ending_of_the_file_that_it_comes_from() {
+        for (name, stem) in [
+            ("walk.bvh", "walk"),
+            ("WALK.BVH", "WALK"),
+            ("shot.posekit.toml", "shot"),
+            ("arm.urdf", "arm"),
+            ("knight.glb", "knight"),
+            ("a.b.bvh", "a.b"),
+            (".bvh", "clip"),
+            ("\u{e9}", "\u{e9}"),
+            ("a/b c", "a_b_c"),
+        ] {
+            assert_eq!(stem_of(name), stem);
+        }
+    }
+
+    #[test]
+    fn what_is_write_protected_stays_and_links_lead_on() {
+        let folder = std::env::temp_dir().join(format!("posekit-files-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).expect("a folder");
+        let put = |path: &std::path::Path| -> std::io::Result<()> {
+            write_beside(path, |file| std::io::Write::write_all(file, b"new"))
+        };
+        let path = folder.join("a.bvh");
+        std::fs::write(&path, "old").expect("written");
+        let mut permissions = std::fs::metadata(&path).expect("there").permissions();
+        permissions.set_readonly(true);
+        std::fs::set_permissions(&path, permissions).expect("protected");
+        let error = put(&path).expect_err("refused");
+        assert_eq!(error.to_string(), "it is write-protected");
+        assert_eq!(std::fs::read(&path).expect("there"), b"old");
+        let names = std::fs::read_dir(&folder).expect("listed").count();
+        assert_eq!(names, 1, "nothing is left beside it");
+        #[cfg(unix)]
+        {
+            let (real, link) = (folder.join("real"), folder.join("link"));
+            std::fs::write(&real, "old").expect("written");
+            std::os::unix::fs::symlink("real", &link).expect("linked");
+            put(&link).expect("written");
+            assert!(
+                std::fs::symlink_metadata(&link)
+                    .expect("there")
+                    .is_symlink()
+            );
+            assert_eq!(std::fs::read(&real).expect("there"), b"new");
+        }
+        std::fs::remove_dir_all(&folder).expect("removed");
+    }
 }

@@ -112,6 +112,58 @@ fn a_range_is_saved_where_the_system_has_no_dialogs() {
     assert_eq!(remembered.as_deref(), Some(&*place.0));
 }
 
+/// Presses and lets go a key in the frame that is to come, whatever else is in it.
+fn in_the_same_frame(window: &mut Window, modifiers: Modifiers, key: Key) {
+    for pressed in [true, false] {
+        window.event(egui::Event::Key {
+            key,
+            physical_key: None,
+            pressed,
+            repeat: false,
+            modifiers,
+        });
+    }
+}
+
+#[test]
+fn a_name_and_the_enter_after_it_may_come_in_one_frame() {
+    // As they do where somebody types fast and pictures are slow.
+    let place = Place::new("fast");
+    let mut window = window(&place);
+    press(&mut window, Modifiers::COMMAND, Key::S);
+    until(&mut window, |viewer| viewer.chooser().is_some());
+    // The proposed name is typed over from the first frame on.
+    window.event(egui::Event::Text("first".to_owned()));
+    in_the_same_frame(&mut window, Modifiers::NONE, Key::Enter);
+    until(&mut window, |viewer| viewer.chooser().is_none());
+    until(&mut window, |viewer| viewer.notices().last().is_some());
+    assert!(place.0.join("first.bvh").exists());
+    // A key, and what was typed after it: first the folder that Tab completes, then the name in it.
+    std::fs::create_dir(place.0.join("deep")).expect("a folder");
+    asks(&mut window, Modifiers::COMMAND, Key::S);
+    clears(&mut window);
+    window.event(egui::Event::Text("dee".to_owned()));
+    in_the_same_frame(&mut window, Modifiers::NONE, Key::Tab);
+    window.event(egui::Event::Text("tw".to_owned()));
+    window.event(egui::Event::Text("o".to_owned()));
+    in_the_same_frame(&mut window, Modifiers::NONE, Key::Enter);
+    let path = place.0.join("deep/two.bvh");
+    until(&mut window, |viewer| viewer.chooser().is_none());
+    until(&mut window, |_| path.exists());
+}
+
+#[test]
+fn alt_up_goes_to_the_folder_above() {
+    let place = Place::new("above");
+    let mut window = window(&place);
+    asks(&mut window, Modifiers::COMMAND, Key::O);
+    let folder = |window: &Window| viewer(window).chooser().map(|it| it.folder().to_owned());
+    let before = folder(&window).expect("open");
+    press(&mut window, Modifiers::ALT, Key::ArrowUp);
+    window.run_steps(2);
+    assert_eq!(folder(&window).as_deref(), before.parent());
+}
+
 /// Whoever has seen a button and goes to it with the pointer finds it there: neither a question nor an empty
 /// folder moves the window that asks.
 #[test]

@@ -9,7 +9,7 @@ mod listing;
 use std::collections::BTreeSet;
 use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 
-pub use listing::Item;
+pub use listing::{Item, is_write_protected};
 use listing::{check_writable, has_ending, list};
 
 /// What is chosen.
@@ -441,6 +441,9 @@ impl Chooser {
         }
         if path.is_dir() {
             return self.refuse(&format!("{} is a folder", path.display()));
+        }
+        if is_write_protected(&path) {
+            return self.refuse(&format!("{} is write-protected", path.display()));
         }
         if path.exists() {
             let is_open = self.ask.open_files.contains(&path);

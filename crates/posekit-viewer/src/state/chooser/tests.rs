@@ -169,6 +169,31 @@ fn a_folder_that_is_not_there_is_made_when_that_is_wanted() {
     assert!(chooser.problem().is_some_and(|it| it.contains("name")));
 }
 
+#[test]
+fn a_file_that_is_write_protected_is_not_offered_to_be_replaced() {
+    let place = Place::new("protected");
+    let path = place.0.join("mine.bvh");
+    fs::write(&path, "old").expect("written");
+    let protect = |on: bool| {
+        let mut permissions = fs::metadata(&path).expect("there").permissions();
+        permissions.set_readonly(on);
+        fs::set_permissions(&path, permissions).expect("set");
+    };
+    protect(true);
+    let mut chooser = place.chooser(Goal::SaveFile, "");
+    typed(&mut chooser, "mine");
+    assert_eq!(chooser.enter(), None);
+    assert_eq!(chooser.question(), None);
+    assert!(
+        chooser
+            .problem()
+            .is_some_and(|it| it.contains("write-protected"))
+    );
+    protect(false);
+    assert_eq!(chooser.enter(), None);
+    assert!(chooser.question().is_some());
+}
+
 #[cfg(unix)]
 #[test]
 fn a_folder_that_may_not_be_written_to_is_refused() {
