@@ -254,6 +254,8 @@ impl Viewer {
         #[cfg(not(target_arch = "wasm32"))]
         {
             let now = ctx.input(|i| i.time);
+            // It is remembered for a start from another place, and has a name even where it was given as a dot.
+            let folder = crate::state::animate::place::absolute(&folder);
             match crate::state::library::motion_files(&folder) {
                 Ok(paths) if paths.is_empty() => {
                     let text = format!("There are no BVH files or scenes in {}", folder.display());

@@ -251,7 +251,8 @@ impl Viewer {
             if path.is_dir() {
                 self.list_folder(ctx, path);
             } else {
-                inputs.push(Input::Path(path));
+                // One file has one path, also where the folder lists it.
+                inputs.push(Input::Path(crate::state::animate::place::absolute(&path)));
             }
         }
         if inputs.is_empty() {

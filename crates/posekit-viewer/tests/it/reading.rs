@@ -4,9 +4,13 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use egui_kittest::kittest::Queryable as _;
 use posekit_viewer::load::{Event, Input, Loader, Purpose};
+use posekit_viewer::state::settings::Settings;
+use posekit_viewer::{Viewer, ViewerOptions};
 
 use super::clips::arm_text;
+use super::window::{until, viewer};
 
 /// Long enough for a busy machine; a test that waits so long has failed.
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -212,5 +216,47 @@ fn a_folder_is_looked_at_file_by_file() {
         std::thread::sleep(Duration::from_millis(5));
     }
     assert_eq!(outcomes, [(good, Some(3)), (bad, None)]);
+    std::fs::remove_dir_all(&folder).expect("removed");
+}
+
+/// As by `posekit view . one.bvh`: a dot is no name, and one file has one path.
+#[cfg(unix)]
+#[test]
+fn a_folder_given_by_a_relative_path_has_a_name_and_lists_nothing_twice() {
+    let name = format!("posekit-relative-{}", std::process::id());
+    let folder = std::env::temp_dir().join(&name);
+    std::fs::create_dir_all(&folder).expect("a temporary folder");
+    for file in ["one.bvh", "two.bvh"] {
+        std::fs::write(folder.join(file), arm_text(5)).expect("written");
+    }
+    let here = std::env::current_dir().expect("a folder");
+    let mut relative = std::path::PathBuf::new();
+    for _ in here.components().skip(1) {
+        relative.push("..");
+    }
+    relative.push(folder.strip_prefix("/").expect("from the root"));
+    let mut options = Some(ViewerOptions {
+        paths: vec![relative.join("."), relative.join("one.bvh")],
+        ..ViewerOptions::default()
+    });
+    let show = move |ui: &mut egui::Ui, viewer: &mut Option<Viewer>| {
+        let viewer = viewer.get_or_insert_with(|| {
+            let options = options.take().unwrap_or_default();
+            Viewer::new(ui.ctx(), None, &Settings::default(), options)
+        });
+        viewer.show(ui);
+    };
+    let mut window = egui_kittest::Harness::builder()
+        .with_size(egui::Vec2::new(1000.0, 700.0))
+        .build_ui_state(show, None);
+    until(&mut window, |viewer| {
+        !viewer.is_working() && !viewer.session().clips().is_empty()
+    });
+    window.get_by_label(&name);
+    assert_eq!(viewer(&window).settings().folder.as_deref(), Some(&*folder));
+    // One is open, the other is listed.
+    for file in ["one.bvh", "two.bvh"] {
+        assert_eq!(window.query_all_by_label(file).count(), 1, "{file}");
+    }
     std::fs::remove_dir_all(&folder).expect("removed");
 }
