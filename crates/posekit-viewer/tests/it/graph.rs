@@ -326,6 +326,33 @@ fn s_scales_about_the_middle_and_the_right_button_gives_it_up() {
 }
 
 #[test]
+fn esc_closes_the_menu_of_the_right_button_and_nothing_else() {
+    let mut window = graphing();
+    let selected = viewer(&window).session().selection().to_vec();
+    assert!(!selected.is_empty());
+    let beside = at(&window, dot(1, 0)) + vec2(40.0, 0.0);
+    window.hover_at(beside);
+    window.step();
+    for pressed in [true, false] {
+        window.event(egui::Event::PointerButton {
+            pos: beside,
+            button: PointerButton::Secondary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        });
+        window.step();
+    }
+    window.run_steps(3);
+    window.get_by_label("Delete  (X)");
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    window.run_steps(3);
+    assert!(window.query_by_label("Delete  (X)").is_none());
+    assert_eq!(viewer(&window).session().selection(), selected);
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(viewer(&window).session().selection().is_empty());
+}
+
+#[test]
 fn keys_choose_tangents_and_interpolation_in_menus() {
     let mut window = graphing();
     let place = at(&window, dot(1, 0));

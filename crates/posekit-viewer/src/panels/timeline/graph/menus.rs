@@ -1,6 +1,6 @@
 //! The menu of the graph under the right button.
 
-use egui::{Popup, PopupKind, Pos2, Response, Ui};
+use egui::{Popup, PopupKind, Response, Ui};
 
 use super::GraphPanel;
 use crate::command::{Command, KeysCommand};
@@ -8,7 +8,8 @@ use crate::panels::Asked;
 use crate::panels::timeline::menu::{self, Menu};
 use crate::state::session::Session;
 
-/// Shows the menu while it is open, and opens it.
+/// Shows the menu while it is open, and opens it. It is one of egui's own list of what is open, so that Esc is
+/// known to be its key.
 pub(super) fn show(
     ui: &Ui,
     response: &Response,
@@ -16,30 +17,17 @@ pub(super) fn show(
     panel: &mut GraphPanel,
     asked: &mut Asked,
 ) {
+    let id = response.id.with("menu");
     if response.secondary_clicked() && !panel.press_is_spent {
         panel.menu = response.interact_pointer_pos();
+        Popup::open_id(ui.ctx(), id);
     }
     let Some(at) = panel.menu else {
         return;
     };
-    if !show_at(ui, response, at, session, asked) {
-        panel.menu = None;
-    }
-}
-
-/// False when it is closed.
-fn show_at(
-    ui: &Ui,
-    response: &Response,
-    at: Pos2,
-    session: &mut Session,
-    asked: &mut Asked,
-) -> bool {
-    let mut open = true;
-    let (id, layer) = (response.id.with("menu"), response.layer_id);
-    Popup::new(id, ui.ctx().clone(), at, layer)
+    Popup::new(id, ui.ctx().clone(), at, response.layer_id)
         .kind(PopupKind::Menu)
-        .open_bool(&mut open)
+        .open_memory(None)
         .accessible_name("Keys")
         .show(|ui| {
             ui.set_min_width(150.0);
@@ -67,5 +55,7 @@ fn show_at(
                 }
             }
         });
-    open
+    if !Popup::is_id_open(ui.ctx(), id) {
+        panel.menu = None;
+    }
 }
