@@ -464,10 +464,40 @@ fn add(window: &mut Window, what: &str) {
 }
 
 #[test]
+fn names_that_say_what_a_thing_is_are_not_told_twice() {
+    let mut window = animating();
+    let session = window.state_mut().as_mut().expect("shown").session_mut();
+    session.add_thing(NewThing::Camera);
+    for what in ["Box", "Three-point lights"] {
+        add(&mut window, what);
+    }
+    for name in ["camera", "box", "key light", "fill light", "rim light"] {
+        window.get_by_label(name);
+    }
+    let mut named = |name: &str| {
+        let session = window.state_mut().as_mut().expect("shown").session_mut();
+        session.author(|authored| {
+            let _ = authored.edit_scene("Name", None, |scene| {
+                scene.lights[0].name = name.to_owned();
+                scene.props[0].name = name.to_owned();
+            });
+            let (scene, skeleton) = (authored.scene(), authored.skeleton());
+            [Owner::Light(0), Owner::Prop(0)].map(|owner| owner.name(scene, skeleton))
+        })
+    };
+    assert_eq!(named("lamp").expect("a scene"), ["Light lamp", "Prop lamp"]);
+    assert_eq!(
+        named("Lighthouse").expect("a scene"),
+        ["Light Lighthouse", "Prop Lighthouse"]
+    );
+    assert_eq!(named("").expect("a scene"), ["Light 1", "Prop 1"]);
+}
+
+#[test]
 fn a_light_is_added_from_the_panel_set_and_keyed_by_its_diamond() {
     let mut window = animating();
     add(&mut window, "Light");
-    window.get_by_label("Light light");
+    window.get_by_label("light");
     let strength = Lane::LightStrength(0);
     let before = viewer(&window).session().value_of(strength);
     window.get_by_label("Strength").click();

@@ -76,10 +76,11 @@ impl Owner {
         }
     }
 
-    /// Its name.
+    /// Its name. What it is stands before it where the name does not say so itself: `Light lamp`, and `key light`.
     #[must_use]
     pub fn name(self, scene: &Scene, skeleton: &Skeleton) -> String {
         let named = |kind: &str, index: usize, name: Option<&String>| match name {
+            Some(name) if says_kind(name, kind) => name.clone(),
             Some(name) if !name.is_empty() => format!("{kind} {name}"),
             _ => format!("{kind} {}", index + 1),
         };
@@ -90,6 +91,19 @@ impl Owner {
             Self::Prop(i) => named("Prop", i, scene.props.get(i).map(|it| &it.name)),
         }
     }
+}
+
+/// Whether one of a name's words is what the thing is.
+fn says_kind(name: &str, kind: &str) -> bool {
+    let shapes: &[&str] = if kind == "Prop" {
+        &["box", "sphere", "ball"]
+    } else {
+        &[]
+    };
+    let mut words = name.split(|c: char| !c.is_alphabetic());
+    words.any(|word| {
+        word.eq_ignore_ascii_case(kind) || shapes.iter().any(|it| word.eq_ignore_ascii_case(it))
+    })
 }
 
 impl Lane {
