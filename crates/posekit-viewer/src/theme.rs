@@ -164,6 +164,8 @@ fn set_spacing(style: &mut Style) {
     spacing.icon_width_inner = 9.0;
     spacing.scroll = egui::style::ScrollStyle::thin();
     spacing.tooltip_width = 340.0;
+    // A list of a dozen lines is seen whole where the window has the room.
+    spacing.combo_height = 360.0;
 }
 
 /// Gives what is pressed a height.

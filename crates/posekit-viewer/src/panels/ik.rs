@@ -3,7 +3,7 @@
 
 use std::cmp::Ordering;
 
-use egui::{Button, RichText, Slider, Ui};
+use egui::{Button, DragValue, RichText, Slider, Ui};
 use posekit::skeleton::Skeleton;
 
 use super::inspector::number;
@@ -27,6 +27,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, asked: &mut Asked) {
     chain(ui, session, clip.skeleton(), &mut settings);
     solver(ui, &mut settings, session.keeps_within_motion());
     session.set_ik(settings);
+    target(ui, session);
     ui.add_space(GAP);
     result(ui, session);
     ui.add_space(GAP);
@@ -119,11 +120,44 @@ fn solver(ui: &mut Ui, settings: &mut IkSettings, within_motion: bool) {
     });
 }
 
+/// Where the effector should be, as numbers: typed, or dragged sideways, which is one step when it is let go.
+fn target(ui: &mut Ui, session: &mut Session) {
+    let Some(target) = session.target().filter(|_| session.can_edit()) else {
+        return;
+    };
+    let speed = f64::from(session.stage().stature()) / 400.0;
+    let before = target.position.to_array();
+    let mut numbers = before;
+    let mut is_held = false;
+    let mut is_let_go = false;
+    row::line(ui, "Target", |ui| {
+        ui.spacing_mut().item_spacing.x = 2.0;
+        let width = ((ui.available_width() - 2.0 * 2.0) / 3.0).max(40.0);
+        for (axis, number) in ["x", "y", "z"].into_iter().zip(&mut numbers) {
+            let field = DragValue::new(number)
+                .speed(speed)
+                .max_decimals(4)
+                .update_while_editing(false);
+            let response = ui.add_sized([width, ui.spacing().interact_size.y], field);
+            let name = format!("Target {axis}");
+            response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::SpinButton, true, &name));
+            is_held |= response.dragged();
+            is_let_go |= response.drag_stopped();
+            response.on_hover_text(
+                "Where the effector should be, in the file's unit: drag sideways, or click and type",
+            );
+        }
+    });
+    if numbers != before || is_let_go {
+        session.set_target_position(numbers.into(), is_held);
+    }
+}
+
 /// What came of the last problem.
 fn result(ui: &mut Ui, session: &Session) {
     let palette = Palette::in_ui(ui);
     let Some(solved) = session.solved() else {
-        let says = "Drag the arrows at the joint: the chain follows.";
+        let says = "Drag the arrows at the joint, or type a place: the chain follows.";
         ui.label(RichText::new(says).small().color(palette.quiet));
         return;
     };

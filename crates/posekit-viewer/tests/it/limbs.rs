@@ -106,6 +106,81 @@ fn the_limb_follows_its_target_with_every_solver() {
 }
 
 #[test]
+fn a_target_is_typed_as_numbers() {
+    let mut session = walk_with("LeftHand");
+    session.set_ik(settings(SolverChoice::default()));
+    let joint = named(&session, "LeftHand").index();
+    let before = session.target().expect("the effector's own place");
+    let place = before.position + Vec3::new(0.05, 0.1, 0.05);
+    // Dragged sideways it is shown, and a step only when it is let go.
+    session.set_target_position(before.position + Vec3::Y * 0.02, true);
+    session.set_target_position(place, true);
+    assert!(session.edits().is_none_or(|edits| edits.undo_count() == 0));
+    assert!(shown(&session).positions[joint].distance(place) < 1e-3);
+    session.set_target_position(place, false);
+    assert_eq!(session.edits().expect("edited").undo_count(), 1);
+    assert_eq!(session.target().expect("set").position, place);
+    assert!(shown(&session).positions[joint].distance(place) < 1e-3);
+    assert!(
+        session
+            .solved()
+            .expect("solved")
+            .report
+            .outcome
+            .is_reached()
+    );
+    session.undo();
+    assert_eq!(session.target().expect("its own place"), before);
+    // Without following, the target alone is set.
+    session.set_ik(IkSettings {
+        is_live: false,
+        ..settings(SolverChoice::default())
+    });
+    let stood = shown(&session).positions[joint];
+    session.set_target_position(place, false);
+    assert_eq!(shown(&session).positions[joint], stood);
+    assert_eq!(session.target().expect("set").position, place);
+    // In the window.
+    let mut window = laptop(vec![input("arm.bvh", 20)]);
+    let open = |window: &mut Window| {
+        let session = window.state_mut().as_mut().expect("shown").session_mut();
+        session.transport.pause();
+        session.set_mode(Mode::Ik);
+        let last = session
+            .active_clip()
+            .expect("a clip")
+            .skeleton()
+            .joint_count()
+            - 1;
+        session.select(Some(JointId::new(last)));
+    };
+    open(&mut window);
+    window.run_steps(3);
+    let now = viewer(&window)
+        .session()
+        .target()
+        .expect("an effector")
+        .position;
+    window.get_by_label("Target x").click();
+    window.run_steps(2);
+    press(&mut window, Modifiers::COMMAND, Key::A);
+    window.event(egui::Event::Text(format!("{}", now.x - 0.1)));
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    window.run_steps(2);
+    let then = viewer(&window).session().target().expect("set").position;
+    assert!(
+        (then.x - now.x + 0.1).abs() < 1e-3 && then.y == now.y,
+        "{now} {then}"
+    );
+    let edits = viewer(&window)
+        .session()
+        .edits()
+        .expect("edited")
+        .undo_count();
+    assert_eq!(edits, 1);
+}
+
+#[test]
 fn letting_go_is_one_step_and_undo_brings_target_and_pose_back() {
     let mut session = walk_with("LeftHand");
     let before = session.active_clip().expect("open").document.clone();

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::Quat;
+use glam::{Quat, Vec3};
 use posekit::ik::{IkProblem, IkWorkspace, JointLimits, solve};
 use posekit::pose::{GlobalPose, LocalPose};
 use posekit::skeleton::JointId;
@@ -267,6 +267,30 @@ impl Session {
                 let name = format!("Set the target of {name}");
                 self.put_goals(&name, goals);
             }
+        }
+    }
+
+    /// Brings the target to a place in the clip's own space. While it is held there, as by a number that is dragged, nothing
+    /// is a step yet.
+    pub fn set_target_position(&mut self, position: Vec3, is_held: bool) {
+        if self.limbs.dragged.is_none() {
+            self.stop_editing();
+            self.transport.pause();
+        }
+        let (Some(target), Some(start)) = (self.target(), self.shown_local_pose()) else {
+            return;
+        };
+        if !self.can_edit() {
+            return;
+        }
+        let target = Target { position, ..target };
+        self.limbs.dragged = Some(target);
+        let is_live = self.limbs.settings.is_live;
+        let pose = is_live.then(|| self.solve_for(&start, &target)).flatten();
+        if is_held {
+            self.hold(pose.map(Arc::new));
+        } else {
+            self.put_target(pose);
         }
     }
 
