@@ -8,7 +8,7 @@
 use std::num::NonZeroUsize;
 
 use eframe::egui_wgpu::RenderState;
-use egui::TextureId;
+use egui::{Color32, Rect, TextureId, pos2, vec2};
 use posekit::pose::GlobalPose;
 use posekit_render::camera::Camera;
 use posekit_render::cpu::CpuRenderer;
@@ -18,6 +18,7 @@ use posekit_render::scene::Scene;
 
 use super::{Texture, to_color_image};
 use crate::state::session::{ClipId, Session};
+use crate::theme::Palette;
 
 /// More pixels than this are drawn smaller while things move, and sharp when they stand.
 const MOVING_PIXELS: f32 = 720_000.0;
@@ -222,6 +223,20 @@ impl Painter {
         }
     }
 
+    /// Draws the picture of a place into its room; until there is one the room is empty.
+    pub fn draw(&self, ui: &egui::Ui, rect: Rect, place: Place) {
+        let canvas = ui.painter().with_clip_rect(rect);
+        let shot = self.shown.as_ref().filter(|shot| shot.key.place == place);
+        let room = shot.map(|shot| room_of(shot.key.size, rect));
+        if room != Some(rect) {
+            canvas.rect_filled(rect, 0.0, Palette::in_ui(ui).sunken);
+        }
+        if let (Some(texture), Some(room)) = (self.texture(), room) {
+            let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+            canvas.image(texture, room, whole, Color32::WHITE);
+        }
+    }
+
     /// Whether the picture on the screen is of that room.
     #[must_use]
     pub fn shows(&self, place: Place) -> bool {
@@ -267,6 +282,18 @@ impl Painter {
             Backend::Gpu(card) => card.name().to_owned(),
         }
     }
+}
+
+/// Where a picture of some pixels stands in a room. While one of the room's new shape is being drawn, the last one keeps
+/// its proportions: it is as high as the room, as the angle of view is, and its middle is in the middle.
+fn room_of((width, height): (u32, u32), room: Rect) -> Rect {
+    /// A picture has whole pixels, and fewer of them while things move.
+    const ROUNDING: f32 = 0.01;
+    let wanted = room.height() * width as f32 / height.max(1) as f32;
+    if (wanted - room.width()).abs() <= ROUNDING * room.width() {
+        return room;
+    }
+    Rect::from_center_size(room.center(), vec2(wanted, room.height()))
 }
 
 /// A size of the same shape with at most [`MOVING_PIXELS`].
@@ -445,6 +472,26 @@ mod worker {
 
         pub(super) fn take(&mut self) -> Option<Image> {
             self.done.take()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_picture_of_another_shape_keeps_its_proportions() {
+        let room = Rect::from_min_size(pos2(100.0, 50.0), vec2(300.0, 600.0));
+        // Of this room, in whatever size.
+        for size in [(300, 600), (600, 1200), (211, 423)] {
+            assert_eq!(room_of(size, room), room);
+        }
+        // From before the room became narrow, or wide.
+        for (size, width) in [((1200, 600), 1200.0), ((100, 600), 100.0)] {
+            let place = room_of(size, room);
+            assert_eq!(place.size(), vec2(width, 600.0));
+            assert_eq!(place.center(), room.center());
         }
     }
 }

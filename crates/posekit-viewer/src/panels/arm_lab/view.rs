@@ -1,6 +1,6 @@
 //! The lab's view: the robot, and what the pointer does with its tip.
 
-use egui::{Color32, Painter as Canvas, Rect, Response, Sense, Shape, Stroke, Ui, pos2, vec2};
+use egui::{Painter as Canvas, Rect, Response, Sense, Shape, Stroke, Ui, vec2};
 use glam::{DVec3, Vec3};
 use posekit::mechanism::Freedom;
 use posekit::skeleton::JointId;
@@ -74,16 +74,7 @@ fn draw(ui: &Ui, rect: Rect, lab: &ArmLab, painter: &mut Painter, look: Look) {
         poses: &Vec::new,
     };
     painter.update_with(ui.ctx(), &subject, pixels_of(ui, rect));
-    let canvas = ui.painter().with_clip_rect(rect);
-    let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-    match painter.texture() {
-        Some(texture) if painter.shows(Place::Bench) => {
-            canvas.image(texture, rect, whole, Color32::WHITE);
-        }
-        _ => {
-            canvas.rect_filled(rect, 0.0, Palette::in_ui(ui).sunken);
-        }
-    }
+    painter.draw(ui, rect, Place::Bench);
 }
 
 /// Lets the pointer have its way with the gizmo: the handle under it, and whether one is held.

@@ -69,16 +69,7 @@ fn draw(ui: &Ui, rect: Rect, lab: &InterpolationLab, painter: &mut Painter, look
         poses: &Vec::new,
     };
     painter.update_with(ui.ctx(), &subject, pixels_of(ui, rect));
-    let canvas = ui.painter().with_clip_rect(rect);
-    let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-    match painter.texture() {
-        Some(texture) if painter.shows(Place::Orientations) => {
-            canvas.image(texture, rect, whole, Color32::WHITE);
-        }
-        _ => {
-            canvas.rect_filled(rect, 0.0, Palette::in_ui(ui).sunken);
-        }
-    }
+    painter.draw(ui, rect, Place::Orientations);
 }
 
 /// Lets the pointer have its way with the rings: what is under it, and whether one is held.

@@ -5,7 +5,7 @@ mod limbs;
 mod strip;
 mod things;
 
-use egui::{Align2, Color32, FontId, PointerButton, Pos2, Rect, Response, Sense, Stroke, Ui, pos2};
+use egui::{Align2, Color32, FontId, PointerButton, Pos2, Rect, Response, Sense, Stroke, Ui};
 use glam::{Vec2, Vec3};
 use posekit::pose::GlobalPose;
 use posekit::skeleton::{JointId, Skeleton};
@@ -13,7 +13,7 @@ use posekit_render::camera::Camera;
 
 use super::Asked;
 use crate::command::Command;
-use crate::picture::painter::{Painter, Shot};
+use crate::picture::painter::{Painter, Place, Shot};
 use crate::state::animate::Owner;
 use crate::state::camera::ViewCamera;
 use crate::state::pick::{pick, pick_effector};
@@ -212,16 +212,8 @@ fn click(ui: &Ui, response: &Response, session: &mut Session, hovered: Option<Ho
 }
 
 fn paint(ui: &Ui, rect: Rect, session: &Session, painter: &Painter, hovered: Option<Hovered>) {
+    painter.draw(ui, rect, Place::Stage);
     let canvas = ui.painter().with_clip_rect(rect);
-    let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-    match painter.texture() {
-        Some(texture) => {
-            canvas.image(texture, rect, whole, Color32::WHITE);
-        }
-        None => {
-            canvas.rect_filled(rect, 0.0, Palette::in_ui(ui).sunken);
-        }
-    }
     let Some(shot) = painter.shot() else { return };
     let overlay = Overlay {
         canvas: &canvas,

@@ -1,6 +1,6 @@
 //! The figures: the truth, and what methods filled in.
 
-use egui::{Color32, FontId, Rect, Sense, Stroke, Ui, pos2, vec2};
+use egui::{FontId, Rect, Sense, Stroke, Ui, pos2, vec2};
 
 use super::super::super::Asked;
 use super::super::super::view::{move_camera, pixels_of};
@@ -49,16 +49,7 @@ fn draw(ui: &Ui, rect: Rect, clip: &ClipLab, painter: &mut Painter, look: Look) 
         poses: &Vec::new,
     };
     painter.update_with(ui.ctx(), &subject, pixels_of(ui, rect));
-    let canvas = ui.painter().with_clip_rect(rect);
-    let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-    match painter.texture() {
-        Some(texture) if painter.shows(Place::FilledClip) => {
-            canvas.image(texture, rect, whole, Color32::WHITE);
-        }
-        _ => {
-            canvas.rect_filled(rect, 0.0, Palette::in_ui(ui).sunken);
-        }
-    }
+    painter.draw(ui, rect, Place::FilledClip);
 }
 
 /// The joint that is marked, on every figure, and the figures' names.
