@@ -2,6 +2,7 @@
 
 use glam::{Mat3, Vec3};
 
+use posekit::body::Limb;
 use posekit::skeleton::{JointId, Skeleton};
 
 use crate::mesh::{LoftRing, MaterialId, Shape};
@@ -46,6 +47,12 @@ const CROWN: f32 = 0.118;
 /// middle of the skull: depth cameras see no other. From the neck's base to the skull's it is 0.05 to 0.07.
 const TO_MIDDLE_OF_SKULL: f32 = 0.08;
 
+/// How far the trunk goes down from the hips, by the measure of [`DEPTH`].
+const CROTCH: f32 = -0.2;
+
+/// How far it goes down at most, as a share of the thigh: a short-legged figure would have its knees in the trunk.
+const CROTCH_OF_THIGH: f32 = 0.3;
+
 /// Half the length of skin that bends between two joints of the spine, as a share of the trunk.
 const BEND: f32 = 0.045;
 /// From ring to ring of the trunk's skin, by the same measure.
@@ -57,6 +64,8 @@ struct Frame {
     top: Vec3,
     hip_half_width: f32,
     chest_half_width: f32,
+    /// How far the trunk goes down from the hips; less than 0, as a share of its height above them.
+    crotch: f32,
 }
 
 pub(super) fn add_trunk(fitter: &mut Fitter<'_>, skeleton: &Skeleton, figure: &Mannequin<'_>) {
@@ -97,12 +106,20 @@ fn frame(fitter: &Fitter<'_>, figure: &Mannequin<'_>) -> Frame {
         None => (hips + toward, 0.09 * stature),
     };
     let widest_chest = (0.108 * stature).max(0.6 * chest_half_width);
+    let height = trunk_height(hips, top, figure);
+    let thigh = |leg: &Limb| fitter.at(leg.upper).distance(fitter.at(leg.middle));
+    let thigh = thigh(left_leg).min(thigh(right_leg));
     Frame {
+        crotch: CROTCH.max(-CROTCH_OF_THIGH * thigh / height),
         hips,
         top,
         hip_half_width: hip_half_width.clamp(0.07 * stature, 0.12 * stature),
         chest_half_width: chest_half_width.clamp(0.066 * stature, widest_chest),
     }
+}
+
+fn trunk_height(hips: Vec3, top: Vec3, figure: &Mannequin<'_>) -> f32 {
+    (top - hips).dot(figure.axes.up).max(0.1 * figure.stature)
 }
 
 /// One skin over pelvis and spine, wide at hips and chest, narrow at the waist: every ring of it
@@ -116,16 +133,24 @@ fn add_torso(fitter: &mut Fitter<'_>, figure: &Mannequin<'_>, frame: &Frame) {
     let carriers: Vec<JointId> = std::iter::once(anatomy.pelvis)
         .chain(anatomy.trunk[..anatomy.spine_count].iter().copied())
         .collect();
-    let height = (frame.top - frame.hips).dot(axes.up).max(0.1 * stature);
+    let height = trunk_height(frame.hips, frame.top, figure);
     let param = |p: Vec3| (p - frame.hips).dot(axes.up) / height;
     let width = width_profile(frame, stature);
+    // Profiles are told for the usual crotch.
+    let usual = |t: f32| {
+        if t < 0.0 {
+            t * (CROTCH / frame.crotch)
+        } else {
+            t
+        }
+    };
     // A spine's first joint can sit right in the pelvis; the pelvis keeps a block of its own.
     let mut cuts: Vec<f32> = carriers.iter().map(|&j| param(fitter.at(j))).collect();
     // Where the hierarchy comes down to the pelvis, a joint carries what is below it.
     for climbed in (1..=anatomy.climbed_count.min(carriers.len() - 1)).rev() {
         cuts[climbed] = cuts[climbed - 1];
     }
-    cuts[0] = -0.2;
+    cuts[0] = frame.crotch;
     cuts.push(1.0);
     if cuts.len() > 2 {
         cuts[1] = cuts[1].max(0.16);
@@ -155,8 +180,8 @@ fn add_torso(fitter: &mut Fitter<'_>, figure: &Mannequin<'_>, frame: &Frame) {
             let t = from + (to - from) * k as f32 / steps as f32;
             let ring = LoftRing {
                 center: trunk_point(fitter, &carriers, frame, t, height, axes.up),
-                half_side: curve(&width, t),
-                half_front: curve(DEPTH, t) * stature,
+                half_side: curve(&width, usual(t)),
+                half_front: curve(DEPTH, usual(t)) * stature,
             };
             fitter.contact(joint, ring.center, ring.half_front);
             rings.push(ring);

@@ -136,3 +136,58 @@ fn the_trunk_has_no_seam() {
     // A band of two triangles for every slice.
     assert_eq!(joining, 2 * 26);
 }
+
+/// A figure for games: a large trunk on short legs, whose thighs are a third of it.
+#[test]
+fn the_trunk_of_a_short_legged_figure_ends_above_the_middle_of_its_thighs() {
+    let mut b = SkeletonBuilder::new();
+    let hips = b.joint("Hips", None, Vec3::new(0.0, 0.45, 0.0));
+    for (side, x) in [("Left", 0.12), ("Right", -0.12)] {
+        let thigh = b.joint(format!("{side}UpLeg"), Some(hips), Vec3::new(x, 0.0, 0.0));
+        let knee = b.joint(
+            format!("{side}Leg"),
+            Some(thigh),
+            Vec3::new(0.0, -0.2, 0.01),
+        );
+        let foot = b.joint(
+            format!("{side}Foot"),
+            Some(knee),
+            Vec3::new(0.0, -0.2, -0.01),
+        );
+        b.end_site(format!("{side}Toe"), foot, Vec3::new(0.0, -0.04, 0.1));
+    }
+    let spine = b.joint("Spine", Some(hips), Vec3::new(0.0, 0.25, 0.0));
+    let chest = b.joint("Chest", Some(spine), Vec3::new(0.0, 0.25, 0.0));
+    for (side, x) in [("Left", 1.0), ("Right", -1.0)] {
+        let arm = b.joint(
+            format!("{side}Arm"),
+            Some(chest),
+            Vec3::new(0.2 * x, 0.1, 0.0),
+        );
+        let elbow = b.joint(
+            format!("{side}ForeArm"),
+            Some(arm),
+            Vec3::new(0.2 * x, 0.0, 0.0),
+        );
+        let hand = b.joint(
+            format!("{side}Hand"),
+            Some(elbow),
+            Vec3::new(0.2 * x, 0.0, 0.0),
+        );
+        b.end_site(
+            format!("{side}HandEnd"),
+            hand,
+            Vec3::new(0.08 * x, 0.0, 0.0),
+        );
+    }
+    let head = b.joint("Head", Some(chest), Vec3::new(0.0, 0.2, 0.0));
+    b.end_site("HeadEnd", head, Vec3::new(0.0, 0.2, 0.0));
+    let skeleton = b.build().unwrap();
+    let mesh = body_mesh(&skeleton, &Proportions::at_rest(&skeleton));
+    let rest = GlobalPose::rest(&skeleton);
+    let of_hips = mesh.vertices.iter().filter(|v| v.joint == 0);
+    let lowest = of_hips
+        .map(|v| rest.transform_point(hips, v.position).y)
+        .fold(f32::INFINITY, f32::min);
+    assert!(lowest > 0.35 && lowest < 0.45, "{lowest}");
+}
