@@ -1,8 +1,10 @@
 //! The command line: what is common to all commands, and the list of commands.
 
-use std::num::NonZeroUsize;
+use std::error::Error as _;
+use std::ffi::OsString;
+use std::num::{NonZeroUsize, ParseFloatError, ParseIntError};
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use posekit_render::render::RendererChoice;
 
 use crate::command;
@@ -64,6 +66,41 @@ pub(crate) struct Global {
     /// The files that the command reads and writes.
     #[arg(skip)]
     pub(crate) guard: Guard,
+}
+
+/// The command line in the program's terms, or what it is answered with: help, the version, or what is wrong.
+pub(crate) fn parse(words: impl IntoIterator<Item = OsString>) -> Result<Cli, clap::Error> {
+    let matches = with_negative_numbers(Cli::command()).try_get_matches_from(words)?;
+    Cli::from_arg_matches(&matches)
+}
+
+/// A value such as -1 is what its option makes of it: not an option of its own, which nobody meant.
+fn with_negative_numbers(command: clap::Command) -> clap::Command {
+    command
+        .mut_args(|arg| {
+            let takes_value = arg.get_action().takes_values() && !arg.is_positional();
+            match takes_value && !arg.is_allow_hyphen_values_set() {
+                true => arg.allow_negative_numbers(true),
+                false => arg,
+            }
+        })
+        .mut_subcommands(with_negative_numbers)
+}
+
+/// What is wrong with the command line, with plain words in place of those that numbers are refused with.
+pub(crate) fn plain(answer: &clap::Error) -> String {
+    let text = answer.render().ansi().to_string();
+    let Some(refused) = answer.source() else {
+        return text;
+    };
+    let words = if refused.is::<ParseFloatError>() {
+        "expected a number"
+    } else if refused.is::<ParseIntError>() {
+        "expected a whole number, without a sign"
+    } else {
+        return text;
+    };
+    text.replace(&refused.to_string(), words)
 }
 
 /// What to do.
@@ -130,6 +167,19 @@ mod tests {
     use clap::CommandFactory;
 
     use super::*;
+
+    /// A line that is broken where the help is is no command that somebody can copy.
+    #[test]
+    fn examples_fit_the_width_of_the_help() {
+        fn look(command: &clap::Command) {
+            let examples = command.get_after_help().map(ToString::to_string);
+            for line in examples.unwrap_or_default().lines() {
+                assert!(line.chars().count() <= 98, "{}: {line}", command.get_name());
+            }
+            command.get_subcommands().for_each(look);
+        }
+        look(&Cli::command());
+    }
 
     /// Every option that takes a value, as `keys bake | --output`, and every name without an option, as `fk | FILE`.
     fn valued(prefix: &str, command: &clap::Command, found: &mut BTreeSet<String>) {

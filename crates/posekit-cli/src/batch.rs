@@ -155,7 +155,7 @@ impl Tally {
         if self.total == 1 || matches!(failure, Failure::ClosedPipe) {
             return Err(failure);
         }
-        console::error(&failure.to_string());
+        failure.say();
         self.failed.push(name.to_owned());
         Ok(())
     }

@@ -4,6 +4,7 @@
 //! terminal, at `NO_COLOR` and at `--color`.
 
 use std::io::{self, BufWriter, IsTerminal, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use anstyle::{AnsiColor, Style};
 use clap::ValueEnum;
@@ -30,6 +31,14 @@ pub(crate) enum ColorWhen {
     Always,
     /// Not at all
     Never,
+}
+
+/// Whether warnings and notes are left out.
+static QUIET: AtomicBool = AtomicBool::new(false);
+
+/// Leaves out warnings and notes from here on, whoever writes them.
+pub(crate) fn set_quiet(quiet: bool) {
+    QUIET.store(quiet, Ordering::Relaxed);
 }
 
 /// Makes `when` hold for everything written from here on.
@@ -100,14 +109,24 @@ pub(crate) fn error(text: &str) {
     line(ERROR, "error", text);
 }
 
-/// Writes `warning: ...` to standard error.
-pub(crate) fn warning(text: &str) {
-    line(WARNING, "warning", text);
+/// Writes text that has its own styles and lines to standard error.
+pub(crate) fn styled_error(text: &str) {
+    // A standard error that cannot be written to leaves nobody to tell.
+    let _ = write!(anstream::stderr().lock(), "{text}");
 }
 
-/// Writes `note: ...` to standard error.
+/// Writes `warning: ...` to standard error, unless that is to be quiet.
+pub(crate) fn warning(text: &str) {
+    if !QUIET.load(Ordering::Relaxed) {
+        line(WARNING, "warning", text);
+    }
+}
+
+/// Writes `note: ...` to standard error, unless that is to be quiet.
 pub(crate) fn note(text: &str) {
-    line(NOTE, "note", text);
+    if !QUIET.load(Ordering::Relaxed) {
+        line(NOTE, "note", text);
+    }
 }
 
 fn line(style: Style, label: &str, text: &str) {

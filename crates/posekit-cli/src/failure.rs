@@ -4,6 +4,10 @@ use std::fmt;
 use std::io;
 use std::path::Path;
 
+use posekit_formats::system::in_words;
+
+use crate::console;
+
 /// Exit code when everything asked for was done.
 pub(crate) const EXIT_DONE: u8 = 0;
 /// Exit code when something could not be done.
@@ -27,6 +31,8 @@ pub(crate) enum Failure {
 pub(crate) struct Message {
     what: String,
     next: Option<String>,
+    /// More that is wrong, a line each.
+    also: Vec<String>,
 }
 
 impl Failure {
@@ -35,6 +41,7 @@ impl Failure {
         Self::CouldNot(Message {
             what: what.into(),
             next: None,
+            also: Vec::new(),
         })
     }
 
@@ -43,6 +50,7 @@ impl Failure {
         Self::Usage(Message {
             what: what.into(),
             next: None,
+            also: Vec::new(),
         })
     }
 
@@ -52,6 +60,26 @@ impl Failure {
             message.next = Some(next.into());
         }
         self
+    }
+
+    /// Adds more that is wrong with the same file, each on a line of its own.
+    pub(crate) fn and(mut self, more: impl IntoIterator<Item = String>) -> Self {
+        if let Self::CouldNot(message) | Self::Usage(message) = &mut self {
+            message.also.extend(more);
+        }
+        self
+    }
+
+    /// Writes the message to standard error, a line for each thing that is wrong.
+    pub(crate) fn say(&self) {
+        if let Self::CouldNot(message) | Self::Usage(message) = self {
+            console::error(&message.first());
+            for more in &message.also {
+                console::error(more);
+            }
+        } else {
+            console::error(&self.to_string());
+        }
     }
 
     /// Puts the input's name in front of the message.
@@ -72,7 +100,7 @@ impl Failure {
                     .try_next("check its permissions")
             }
             io::ErrorKind::IsADirectory => Self::new(format!("{name}: is a folder, not a file")),
-            _ => Self::new(format!("{name}: cannot read: {}", plain(error))),
+            _ => Self::new(format!("{name}: cannot read: {}", in_words(error))),
         }
     }
 
@@ -85,11 +113,7 @@ impl Failure {
             io::ErrorKind::PermissionDenied => {
                 Self::new(format!("{name}: no permission to write here"))
             }
-            io::ErrorKind::StorageFull => Self::new(format!("{name}: the disk is full")),
-            io::ErrorKind::NotADirectory => {
-                Self::new(format!("{name}: part of this path is a file, not a folder"))
-            }
-            _ => Self::new(format!("{name}: cannot write: {}", plain(error))),
+            _ => Self::new(format!("{name}: cannot write: {}", in_words(error))),
         }
     }
 
@@ -119,8 +143,19 @@ impl From<io::Error> for Failure {
         } else {
             Self::new(format!(
                 "cannot write to standard output: {}",
-                plain(&error)
+                in_words(&error)
             ))
+        }
+    }
+}
+
+impl Message {
+    /// What is wrong and what to do next: one line, whatever a file name or a file's text brought with it.
+    fn first(&self) -> String {
+        let what = one_line(&self.what);
+        match &self.next {
+            Some(next) => format!("{what}; {}", one_line(next)),
+            None => what,
         }
     }
 }
@@ -129,23 +164,15 @@ impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::CouldNot(message) | Self::Usage(message) => {
-                // An error is one line, whatever a file name or a file's text brought with it.
-                f.write_str(&one_line(&message.what))?;
-                match &message.next {
-                    Some(next) => write!(f, "; {}", one_line(next)),
-                    None => Ok(()),
-                }
+                f.write_str(&message.first())?;
+                message
+                    .also
+                    .iter()
+                    .try_for_each(|more| write!(f, "; {}", one_line(more)))
             }
             Self::ClosedPipe => f.write_str("the program that was reading the output stopped"),
         }
     }
-}
-
-/// The operating system's words without the number that Rust appends.
-fn plain(error: &io::Error) -> String {
-    let text = error.to_string();
-    let text = text.split(" (os error").next().unwrap_or(&text);
-    text.trim_end_matches('.').to_lowercase()
 }
 
 /// `text` with escapes in place of what moves the cursor, ends the line or turns the direction of writing: names

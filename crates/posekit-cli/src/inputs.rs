@@ -125,6 +125,12 @@ pub(crate) fn expand(names: &[OsString]) -> Inputs {
 }
 
 fn unknown_sample(name: &str) -> Failure {
+    if posekit_formats::urdf::sample::by_name(name).is_some() {
+        let why =
+            format!("{SAMPLE_PREFIX}{name} is a robot, which posekit view alone takes by its name");
+        let next = format!("posekit sample {name} -o {name}.urdf makes a file of it");
+        return Failure::usage(why).try_next(next);
+    }
     let known: Vec<_> = Sample::ALL.iter().map(|sample| sample.name()).collect();
     let failure = Failure::usage(format!("there is no sample '{name}'"));
     match similar::nearest(name, known.iter().copied()) {

@@ -13,6 +13,7 @@ use crate::bytes;
 use crate::failure::{Failure, one_line};
 use crate::inputs::{Input, Source};
 use crate::jobs;
+use crate::kind;
 use crate::scene_file::{self, Asked, Part};
 
 /// A document and what its reader had to say.
@@ -263,6 +264,9 @@ fn parse_whole(name: &str, bytes: &[u8]) -> Result<(Import<Bvh>, Vec<Gap>), Fail
 
 /// The failure of a file that cannot be read; where only numbers are missing, what can be done.
 pub(crate) fn refused(name: &str, bytes: &[u8], error: &ReadError) -> Failure {
+    if let Some(failure) = kind::not_a_motion(name, bytes) {
+        return failure;
+    }
     let failure = Failure::new(read_error_line(name, error));
     let has_gaps = error.kind == ReadErrorKind::NotFinite && bvh::read_with_gaps(bytes).is_ok();
     if has_gaps {
@@ -274,7 +278,10 @@ pub(crate) fn refused(name: &str, bytes: &[u8], error: &ReadError) -> Failure {
 }
 
 fn parse_with_gaps(name: &str, bytes: &[u8]) -> Result<(Import<Bvh>, Vec<Gap>), Failure> {
-    bvh::read_with_gaps(bytes).map_err(|error| Failure::new(read_error_line(name, &error)))
+    bvh::read_with_gaps(bytes).map_err(|error| {
+        kind::not_a_motion(name, bytes)
+            .unwrap_or_else(|| Failure::new(read_error_line(name, &error)))
+    })
 }
 
 /// `file:line:column: expected this, found that`, which editors and terminals make a link of.

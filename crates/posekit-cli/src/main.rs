@@ -10,6 +10,7 @@ mod failure;
 mod graphics_env;
 mod inputs;
 mod jobs;
+mod kind;
 mod load;
 mod output;
 mod positions;
@@ -26,13 +27,11 @@ mod up;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-use clap::Parser;
-
-use args::{Cli, Command};
+use args::Command;
 use failure::{EXIT_DONE, EXIT_WRONG_USAGE, Failure};
 
 fn main() -> ExitCode {
-    let cli = match Cli::try_parse() {
+    let cli = match args::parse(std::env::args_os()) {
         Ok(cli) => cli,
         Err(answer) => return tell(&answer),
     };
@@ -40,6 +39,7 @@ fn main() -> ExitCode {
         graphics_env::keep_quiet();
     }
     console::set_color(cli.global.color);
+    console::set_quiet(cli.global.quiet);
     output::remove_unfinished_on_interrupt();
     let Some(command) = cli.command else {
         return finish(command::start::run(&cli.global));
@@ -67,10 +67,11 @@ fn main() -> ExitCode {
 
 /// Prints what the command line alone is answered with: help, the version, or what is wrong with it.
 fn tell(answer: &clap::Error) -> ExitCode {
-    let told = answer.print().and_then(|()| io::stdout().flush());
     if answer.use_stderr() {
+        console::styled_error(&args::plain(answer));
         return ExitCode::from(EXIT_WRONG_USAGE);
     }
+    let told = answer.print().and_then(|()| io::stdout().flush());
     finish(told.map_err(Failure::from))
 }
 
@@ -80,7 +81,7 @@ fn finish(result: Result<(), Failure>) -> ExitCode {
         Ok(()) => ExitCode::from(EXIT_DONE),
         Err(failure) => {
             if !matches!(failure, Failure::ClosedPipe) {
-                console::error(&failure.to_string());
+                failure.say();
             }
             ExitCode::from(failure.exit_code())
         }

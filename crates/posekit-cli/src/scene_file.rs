@@ -9,13 +9,16 @@ use posekit::rotation::EulerOrder;
 use posekit_formats::bvh::Bvh;
 use posekit_formats::gltf;
 use posekit_formats::report::{Import, ImportReport};
-use posekit_formats::scene::{self, MotionFileError, Scene, Shot};
+use posekit_formats::scene::{self, MotionFileError, Scene, SceneError, Shot, ShotError};
 
 use crate::bytes;
 use crate::console;
 use crate::failure::{Failure, one_line};
+use crate::inputs::STDIN;
+use crate::kind;
 use crate::output::Guard;
 use crate::select::FrameSelection;
+use crate::similar;
 use crate::text::{counted, grouped};
 
 /// Whether a file of this name is a scene.
@@ -24,12 +27,37 @@ pub(crate) fn is_scene(path: &Path) -> bool {
     name.is_some_and(scene::is_scene_name)
 }
 
+/// A scene of standard input, which `-` stands for; files that it names are sought in the folder at hand.
+fn is_stdin(path: &Path) -> bool {
+    path.as_os_str() == STDIN
+}
+
+/// What messages call a scene.
+pub(crate) fn name_of(path: &Path) -> String {
+    match is_stdin(path) {
+        true => "standard input".to_owned(),
+        false => path.display().to_string(),
+    }
+}
+
+fn bytes_of(path: &Path, guard: &Guard) -> Result<Vec<u8>, Failure> {
+    match is_stdin(path) {
+        true => bytes::of_stdin(guard),
+        false => bytes::of_file(path, guard),
+    }
+}
+
 /// Reads a scene file, and warns of what in it will not come out as it may have been meant.
 pub(crate) fn read(path: &Path, guard: &Guard) -> Result<Scene, Failure> {
-    let bytes = bytes::of_file(path, guard)?;
-    let name = path.display().to_string();
-    let (scene, warnings) = scene::read_with_warnings(&bytes)
-        .map_err(|error| Failure::new(one_line(&error.in_file(&name))))?;
+    let bytes = bytes_of(path, guard)?;
+    let name = name_of(path);
+    let (scene, warnings) = scene::read_with_warnings(&bytes).map_err(|error| {
+        if let Some(failure) = kind::not_a_scene(&name, &bytes) {
+            return failure;
+        }
+        let mut lines = error.lines_in_file(&name).into_iter();
+        Failure::new(lines.next().unwrap_or_default()).and(lines)
+    })?;
     for warning in &warnings {
         console::warning(&one_line(&warning.in_file(&name)));
     }
@@ -61,10 +89,39 @@ pub(crate) fn shot(path: &Path, scene: &Scene, guard: &Guard) -> Result<Import<S
     };
     let shot = Shot::new(scene, load);
     files.refused()?;
-    let document = shot.map_err(|error| {
-        Failure::new(one_line(&error.to_string())).in_file(&path.display().to_string())
-    })?;
+    let document = shot.map_err(|error| unfit(path, scene, error))?;
+    for remark in document.remarks() {
+        console::warning(&format!("{}: {remark}", name_of(path)));
+    }
     Ok(Import { document, report })
+}
+
+/// Why a scene and its files do not go together, with the joint's name that may have been meant.
+fn unfit(path: &Path, scene: &Scene, error: ShotError<MotionFileError>) -> Failure {
+    let name = name_of(path);
+    match error {
+        ShotError::Scene(SceneError::NoSuchJoint { joint, joints }) => {
+            let unknown = |joint: &str| !joints.iter().any(|known| known == joint);
+            let mut missing: Vec<(usize, &str)> = Vec::new();
+            for (index, track) in scene.tracks.iter().enumerate() {
+                if unknown(&track.joint) {
+                    missing.push((index, &track.joint));
+                }
+            }
+            let lines = missing.into_iter().map(|(index, joint)| {
+                let meant = similar::nearest(joint, joints.iter().map(String::as_str));
+                let meant =
+                    meant.map_or_else(String::new, |meant| format!("; did you mean '{meant}'"));
+                format!("{name}: track[{index}].joint: the skeleton has no joint '{joint}'{meant}")
+            });
+            let mut lines = lines.collect::<Vec<_>>().into_iter();
+            let first = lines.next();
+            let first =
+                first.unwrap_or_else(|| format!("{name}: the skeleton has no joint '{joint}'"));
+            Failure::new(first).and(lines)
+        }
+        other => Failure::new(one_line(&other.to_string())).in_file(&name),
+    }
 }
 
 /// Fails where a joint of a baked scene is so far away that what is computed of it may not be finite: keys are not,
@@ -187,8 +244,12 @@ impl<'a> Beside<'a> {
 
     /// The bytes of a file that the scene, or a file of it, names.
     fn bytes(&self, named: &str) -> Result<Vec<u8>, String> {
-        bytes::of_file(&self.folder.join(named), self.guard).map_err(|failure| {
+        let path = self.folder.join(named);
+        bytes::of_file(&path, self.guard).map_err(|failure| {
+            // Whoever asked says the name, as the scene has it.
             let text = failure.to_string();
+            let of_path = format!("{}: ", path.display());
+            let text = text.strip_prefix(&of_path).unwrap_or(&text).to_owned();
             if let failure @ Failure::Usage(_) = failure {
                 let first = self.refused.take().unwrap_or(failure);
                 self.refused.set(Some(first));

@@ -197,6 +197,10 @@ fn matching(skeleton: &Skeleton, text: &str) -> Result<Vec<JointId>, Failure> {
 }
 
 fn no_such_joint(skeleton: &Skeleton, text: &str) -> Failure {
+    if text.contains(['*', '?', '[']) {
+        return Failure::new(format!("no joint's name matches '{text}'"))
+            .try_next("posekit info --tree lists the joints");
+    }
     let failure = Failure::new(format!("no joint is called '{text}'"));
     let names = skeleton.joints().map(|joint| skeleton.unique_name(joint));
     if let Some(name) = similar::nearest(text, names) {

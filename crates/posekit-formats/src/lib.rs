@@ -15,6 +15,7 @@ mod number_text;
 pub mod poses;
 pub mod report;
 pub mod scene;
+pub mod system;
 pub mod urdf;
 mod warning_code;
 pub mod ways;

@@ -328,3 +328,41 @@ fn open_ends_are_one_finding() {
     assert_eq!(ends[0]["joints"], serde_json::json!(["hand", "thumb"]));
     assert_eq!(ends[0]["value"], 2.0);
 }
+
+#[test]
+fn the_table_says_which_axis_was_taken_as_up_where_it_is_not_plain_y() {
+    let folder = Folder::with_arm();
+    folder.succeed(&["convert", "sample:walk", "in/y.bvh", "--quiet"]);
+    for (name, end) in [("a", "1s"), ("b", "2s")] {
+        let (file, range) = (format!("in/{name}.bvh"), format!("0s..{end}"));
+        folder.succeed(&[
+            "convert",
+            "sample:walk",
+            &file,
+            "--up",
+            "z",
+            "--trim",
+            &range,
+            "--quiet",
+        ]);
+    }
+    let first = std::path::Path::new("in").join("a.bvh");
+    let line = format!(
+        "Z is taken as up in 2 files ({} and 1 more); --up chooses another axis",
+        first.display()
+    );
+    for args in [&["check", "in"][..], &["check", "in", "--summary"]] {
+        let report = folder.succeed(args);
+        assert!(report.lines().any(|it| it == line), "{report}");
+    }
+    let alone = folder.succeed(&["check", "in/y.bvh", "--summary"]);
+    assert!(!alone.contains("as up"), "{alone}");
+    let said = folder.succeed(&["check", "in/a.bvh", "--summary", "--up", "z"]);
+    assert!(
+        said.contains("Z is taken as up in in/a.bvh, as --up says\n"),
+        "{said}"
+    );
+    let json = folder.succeed(&["check", "in", "--summary", "--json"]);
+    let up = &json_lines(&json)[0]["up"];
+    assert_eq!((&up["y"], &up["z"]), (&1.into(), &2.into()));
+}

@@ -207,3 +207,23 @@ fn options_that_make_no_sense_are_wrong_usage() {
     }
     assert_eq!(folder.names(), ["arm.bvh"]);
 }
+
+#[test]
+fn a_name_that_another_joint_has_is_not_given_again() {
+    let folder = Folder::with_arm();
+    folder.succeed(&["sample", "walk", "-o", "walk.bvh"]);
+    let rename = [
+        "convert",
+        "walk.bvh",
+        "out.bvh",
+        "--rename",
+        "LeftHand=RightHand",
+    ];
+    assert_eq!(
+        folder.fail(1, &rename),
+        "error: walk.bvh: two joints would be called 'RightHand'\n"
+    );
+    assert!(!folder.exists("out.bvh"));
+    let error = folder.fail(1, &["fk", "walk.bvh", "--joints", "*Paw"]);
+    assert!(error.contains("no joint's name matches '*Paw'"), "{error}");
+}

@@ -8,7 +8,7 @@ use crate::harness::{ARM, Folder};
 fn a_file_that_cannot_be_read_gets_its_line() {
     let folder = Folder::with_arm();
     folder.write("empty.bvh", "");
-    folder.write("binary.bvh", b"glTF\x02\x00\x00\x00");
+    folder.write("binary.bvh", b"JPEG\x02\x00\x00\x00");
     folder.write("cut.bvh", "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\n");
     folder.write("nothing/readme.txt", "");
     for (name, wanted) in [

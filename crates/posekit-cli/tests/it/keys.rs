@@ -208,7 +208,7 @@ fn scenes_that_do_not_work_say_where() {
         "joint.posekit.toml",
         &SCENE.replace("\"elbow\"", "\"knee\""),
     );
-    assert!(joint.contains("no joint `knee`"), "{joint}");
+    assert!(joint.contains("no joint 'knee'"), "{joint}");
 }
 
 #[test]
@@ -432,4 +432,117 @@ fn lights_props_and_cameras_of_a_scene_make_its_picture() {
         ],
     );
     assert!(error.contains("close, top"), "{error}");
+}
+
+#[test]
+fn all_that_is_wrong_with_a_scene_is_said_a_line_each() {
+    let folder = Folder::with_arm();
+    let scene = SCENE
+        .replace("property = \"rotation\"", "property = \"turn\"")
+        .replace("position =", "place =")
+        .replace("= 10", "= 0");
+    folder.write("bad.posekit.toml", scene);
+    let error = folder.fail(1, &["keys", "print", "bad.posekit.toml"]);
+    let places: Vec<&str> = error
+        .lines()
+        .filter_map(|line| line.strip_prefix("error: bad.posekit.toml:"))
+        .filter_map(|line| line.split(':').next())
+        .collect();
+    assert_eq!(places, ["4", "9", "18"], "{error}");
+    let ran = folder.run(&["info", "--json", "bad.posekit.toml"]);
+    let line: serde_json::Value = serde_json::from_str(&ran.stdout).unwrap();
+    let told = line["error"].as_str().unwrap();
+    assert!(
+        told.contains("frames_per_sec") && told.contains("unknown field `place`"),
+        "{told}"
+    );
+}
+
+#[test]
+fn joints_that_a_skeleton_lacks_are_named_with_those_that_were_meant() {
+    let folder = Folder::with_arm();
+    folder.write("a.posekit.toml", SCENE.replace("\"elbow\"", "\"elbwo\""));
+    assert_eq!(
+        folder.fail(1, &["info", "a.posekit.toml"]),
+        "error: a.posekit.toml: track[0].joint: the skeleton has no joint 'elbwo'; did you mean 'elbow'\n"
+    );
+    folder.write("b.posekit.toml", SCENE.replace("arm.bvh", "arn.bvh"));
+    assert_eq!(
+        folder.fail(1, &["info", "b.posekit.toml"]),
+        "error: b.posekit.toml: arn.bvh: no such file\n"
+    );
+    folder.write("c.posekit.toml", SCENE.replace("arm.bvh", "sample:wlk"));
+    let error = folder.fail(1, &["info", "c.posekit.toml"]);
+    assert!(error.contains("the samples are walk, run"), "{error}");
+}
+
+#[test]
+fn a_motion_that_moves_nothing_is_warned_of_unless_that_is_to_be_quiet() {
+    let folder = Folder::with_arm();
+    let scene = SCENE.replace(
+        "[[track]]",
+        "[[motion]]\nfile = \"sample:walk\"\n\n[[track]]",
+    );
+    folder.write("a.posekit.toml", scene);
+    let ran = folder.run(&["info", "a.posekit.toml"]);
+    let wanted = "warning: a.posekit.toml: motion[0], sample:walk: no joint of it has the name";
+    assert!(ran.stderr.contains(wanted), "{}", ran.stderr);
+    for args in [
+        &["info", "a.posekit.toml", "--quiet"][..],
+        &["fk", "a.posekit.toml", "-q"],
+    ] {
+        assert_eq!(folder.run(args).stderr, "");
+    }
+}
+
+#[test]
+fn a_scene_comes_from_standard_input_too() {
+    let folder = Folder::with_arm();
+    folder.write("a.posekit.toml", SCENE);
+    let from_file = folder.succeed(&["keys", "print", "a.posekit.toml"]);
+    let piped = folder.run_with_input(&["keys", "print", "-"], SCENE.as_bytes());
+    assert!(piped.stderr.is_empty(), "{}", piped.stderr);
+    let after_title = |text: &str| text.lines().skip(1).map(str::to_owned).collect::<Vec<_>>();
+    assert_eq!(after_title(&piped.stdout), after_title(&from_file));
+    assert!(piped.stdout.starts_with("standard input\n"));
+    folder.succeed(&["keys", "bake", "a.posekit.toml", "-o", "a.bvh"]);
+    let baked = folder.run_with_input(&["keys", "bake", "-", "-o", "b.bvh"], SCENE.as_bytes());
+    assert_eq!(
+        folder.read("a.bvh"),
+        folder.read("b.bvh"),
+        "{}",
+        baked.stderr
+    );
+    let info = folder.run_with_input(&["info", "-"], SCENE.as_bytes());
+    assert!(
+        info.stderr.contains("standard input: is a scene"),
+        "{}",
+        info.stderr
+    );
+}
+
+#[test]
+fn a_report_has_a_name_of_its_own_and_nothing_to_fill_in_is_no_comparison() {
+    let folder = Folder::with_arm();
+    folder.succeed(&[
+        "inbetween",
+        "sample:arm",
+        "--keep",
+        "30",
+        "--report",
+        "--method",
+        "slerp",
+    ]);
+    assert!(folder.exists("arm-inbetween.html"));
+    for args in [
+        &["inbetween", "sample:arm", "--keep", "1"][..],
+        &["inbetween", "sample:arm", "--at", "5"],
+    ] {
+        let error = folder.fail(2, args);
+        assert!(error.contains("nothing to fill in"), "{error}");
+    }
+    let error = folder.fail(2, &["inbetween", "sample:arm"]);
+    assert!(error.contains("--keep N, or --at FRAMES"), "{error}");
+    let error = folder.fail(2, &["inbetween", "sample:arm", "--keep", "0"]);
+    assert!(error.contains("from 1 on"), "{error}");
 }

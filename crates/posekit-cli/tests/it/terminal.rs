@@ -178,7 +178,7 @@ fn a_full_disk_is_said_in_one_line_and_with_exit_1() {
         let error = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(1), "{args:?}: {error}");
         assert_eq!(
-            error, "error: cannot write to standard output: no space left on device\n",
+            error, "error: cannot write to standard output: the disk is full\n",
             "{args:?}"
         );
     }
@@ -202,8 +202,147 @@ fn a_full_disk_is_said_in_one_line_and_with_exit_1() {
             "--compress",
         ],
         &["convert", "long.bvh", "/dev/full", "--format", "bvh"],
+        &[
+            "render",
+            "arm.bvh",
+            "-o",
+            "/dev/full",
+            "--format",
+            "png",
+            "--size",
+            "64x36",
+            "--renderer",
+            "cpu",
+        ],
+        &[
+            "render",
+            "arm.bvh",
+            "-o",
+            "/dev/full",
+            "--format",
+            "gif",
+            "--size",
+            "64x36",
+            "--renderer",
+            "cpu",
+        ],
     ] {
         let error = folder.fail(1, args);
-        assert_eq!(error, "error: /dev/full: the disk is full\n", "{args:?}");
+        assert_eq!(
+            error, "error: /dev/full: cannot write: the disk is full\n",
+            "{args:?}"
+        );
     }
+}
+
+/// What a command says about a value that it cannot take.
+fn refusal(folder: &Folder, args: &[&str]) -> String {
+    let error = folder.fail(2, args);
+    error.lines().next().unwrap_or_default().to_owned()
+}
+
+#[test]
+fn a_negative_number_is_a_value_and_not_an_option_that_nobody_meant() {
+    let folder = Folder::with_arm();
+    for (args, wanted) in [
+        (
+            &["convert", "arm.bvh", "o.bvh", "--fps", "-1"][..],
+            "a rate of -1 frames a second is outside",
+        ),
+        (
+            &["convert", "arm.bvh", "o.bvh", "--scale", "-2"],
+            "a scale must be a number above zero, and this is -2",
+        ),
+        (
+            &["convert", "arm.bvh", "o.bvh", "--trim", "-1..5"],
+            "'-1' is neither a frame number nor a time",
+        ),
+        (
+            &["fk", "arm.bvh", "--frames", "-1"],
+            "'-1' is not a frame number",
+        ),
+        (&["fk", "arm.bvh", "-j", "-1"], "expected a whole number"),
+        (
+            &[
+                "keys",
+                "bake",
+                "a.posekit.toml",
+                "-o",
+                "o.bvh",
+                "--fps",
+                "-1",
+            ],
+            "a rate of -1 frames a second is outside",
+        ),
+    ] {
+        let error = refusal(&folder, args);
+        assert!(error.contains(wanted), "{args:?}: {error}");
+    }
+}
+
+#[test]
+fn what_is_no_number_is_refused_in_plain_words() {
+    let folder = Folder::with_arm();
+    for (args, wanted) in [
+        (
+            &["convert", "arm.bvh", "o.bvh", "--fps", "abc"][..],
+            "error: invalid value 'abc' for '--fps <RATE>': expected a number",
+        ),
+        (
+            &["ik-study", "arm.bvh", "--iterations", "few"],
+            "error: invalid value 'few' for '--iterations <COUNTS>': expected a whole number, without a sign",
+        ),
+        (
+            &["ik-study", "arm.bvh", "--root", "home=0,1,0"],
+            "error: invalid value 'home=0,1,0' for '--root <X,Y,Z>': expected three numbers, such as 0,0.93,0",
+        ),
+        (
+            &[
+                "ik-study", "arm.bvh", "--target", "a=1,1,1", "--target", "a=2,1,1",
+            ],
+            "error: two targets are called 'a'",
+        ),
+        (
+            &["ik", "arm.bvh", "--end", "elbow", "--follow", "arm.bvh"],
+            "error: expected a file and a joint, such as other.bvh:LeftHand",
+        ),
+    ] {
+        assert_eq!(refusal(&folder, args), wanted);
+    }
+    let error = folder.fail(
+        2,
+        &["ik", "arm.bvh", "--end", "elbow", "--follow", "arm.bvh"],
+    );
+    assert!(!error.contains("Usage: posekit [OPTIONS]"), "{error}");
+}
+
+#[test]
+fn a_file_of_another_kind_is_called_by_it() {
+    let folder = Folder::with_arm();
+    folder.succeed(&["sample", "planar2", "-o", "arm.urdf"]);
+    folder.succeed(&["keys", "reduce", "arm.bvh", "-o", "a.posekit.toml"]);
+    folder.write("a.toml", folder.read("a.posekit.toml"));
+    folder.write("rig.glb", "glTF\u{2}\0\0\0");
+    for (args, wanted) in [
+        (
+            &["fk", "arm.urdf"][..],
+            "arm.urdf: is a robot (URDF), not a motion; posekit info, check and view take robots",
+        ),
+        (&["info", "rig.glb"], "rig.glb: is glTF"),
+        (&["check", "rig.glb"], "rig.glb: is glTF"),
+        (&["info", "a.toml"], "a.toml: is a scene"),
+        (
+            &["keys", "print", "arm.bvh"],
+            "arm.bvh: is a motion (BVH), not a scene; posekit keys reduce makes a scene of a motion",
+        ),
+        (
+            &["keys", "bake", "arm.urdf", "-o", "o.bvh"],
+            "is a robot (URDF)",
+        ),
+    ] {
+        let error = folder.fail(1, args);
+        assert!(error.contains(wanted), "{args:?}: {error}");
+    }
+    let robot = folder.fail(2, &["info", "sample:arm6"]);
+    assert!(robot.contains("sample:arm6 is a robot"), "{robot}");
 }

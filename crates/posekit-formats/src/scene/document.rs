@@ -162,6 +162,8 @@ pub enum SceneError {
     NoSuchJoint {
         /// The name.
         joint: String,
+        /// The names of the joints that it has.
+        joints: Vec<String>,
     },
     /// An End Site does not turn.
     #[error("joint `{joint}` is an End Site: its rotation cannot be keyed")]
@@ -367,7 +369,13 @@ impl Scene {
             let name = || joint.clone();
             let id = skeleton
                 .find(joint)
-                .ok_or_else(|| SceneError::NoSuchJoint { joint: name() })?;
+                .ok_or_else(|| SceneError::NoSuchJoint {
+                    joint: name(),
+                    joints: skeleton
+                        .joints()
+                        .map(|joint| skeleton.unique_name(joint).to_owned())
+                        .collect(),
+                })?;
             animation = match values {
                 JointValues::Rotation { .. } | JointValues::EulerRotation(_)
                     if skeleton.is_end_site(id) =>

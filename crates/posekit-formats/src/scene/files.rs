@@ -45,7 +45,12 @@ pub fn import_of(
 ) -> Result<Import<FileMotion>, MotionFileError> {
     if let Some(sample) = named.strip_prefix(SAMPLE_PREFIX) {
         let motion = sample_motion(sample);
-        let motion = motion.ok_or_else(|| MotionFileError("there is no such sample".to_owned()))?;
+        let motion = motion.ok_or_else(|| {
+            let names = posekit::sample::NAMES.map(|(name, _)| name).join(", ");
+            let why =
+                format!("there is no such sample; the samples are {names}, {AUTHORED_WALK_NAME}");
+            MotionFileError(why)
+        })?;
         return Ok(Import {
             document: FileMotion::Frames(Arc::new(motion)),
             report: ImportReport::default(),
@@ -105,6 +110,16 @@ pub fn sample_motion(name: &str) -> Option<Motion> {
 }
 
 impl SceneReadError {
+    /// All that is wrong, a line each as [`SceneProblem::in_file`] has it; the last one counts those that were not kept.
+    pub fn lines_in_file(&self, name: &str) -> Vec<String> {
+        let lines = self.problems.iter().map(|problem| problem.in_file(name));
+        let more = (self.more > 0).then(|| match self.more {
+            1 => format!("{name}: 1 more problem"),
+            more => format!("{name}: {more} more problems"),
+        });
+        lines.chain(more).collect()
+    }
+
     /// `NAME:12:5: track[2].joint: the message`, which editors and terminals make a link of.
     pub fn in_file(&self, name: &str) -> String {
         let Some(first) = self.problems.first() else {

@@ -10,6 +10,9 @@ use posekit::skeleton::{JointId, Skeleton, SkeletonError};
 use super::document::{MotionLayer, Scene, SceneError, SkeletonSource};
 use super::file_motion::FileMotion;
 
+/// A part of a file may be said to end so much later than the file does, without a remark.
+const OVERHANG_SECS: f64 = 0.1;
+
 /// What can be posed and baked of a scene.
 #[derive(Clone, Debug)]
 pub struct Shot {
@@ -18,6 +21,7 @@ pub struct Shot {
     layers: Vec<Layer>,
     range_secs: [f64; 2],
     frame_time: FrameTime,
+    remarks: Vec<String>,
 }
 
 /// A motion that plays on the scene's skeleton.
@@ -83,11 +87,17 @@ impl Shot {
         };
         let skeleton = skeleton.ok_or(SceneError::from(SkeletonError::Empty))?;
         let animation = scene.animation(&skeleton)?;
-        let mut layers: Vec<Layer> = scene
-            .motions
-            .iter()
-            .filter_map(|layer| Some(Layer::new(layer, motion(&layer.file)?, &skeleton)))
-            .collect();
+        let mut layers: Vec<Layer> = Vec::new();
+        let mut remarks = Vec::new();
+        for (index, said) in scene.motions.iter().enumerate() {
+            let Some(motion) = motion(&said.file) else {
+                continue;
+            };
+            let layer = Layer::new(said, motion, &skeleton);
+            let remark = layer.remark(said, scene.range_secs[1]);
+            remarks.extend(remark.map(|text| format!("motion[{index}], {}: {text}", said.file)));
+            layers.push(layer);
+        }
         layers.sort_by(|a, b| a.start_secs.total_cmp(&b.start_secs));
         Ok(Self {
             skeleton,
@@ -95,12 +105,18 @@ impl Shot {
             layers,
             range_secs: scene.range_secs,
             frame_time: FrameTime::of_rate(scene.frames_per_sec).unwrap_or(FrameTime::NONE),
+            remarks,
         })
     }
 
     /// The skeleton that moves.
     pub fn skeleton(&self) -> &Arc<Skeleton> {
         &self.skeleton
+    }
+
+    /// What will not come out as it may have been meant: motions that move nothing, for people, a line each.
+    pub fn remarks(&self) -> &[String] {
+        &self.remarks
     }
 
     /// The keyed joints.
@@ -188,6 +204,32 @@ impl Layer {
             joints: matched.collect(),
             motion: motion.clone(),
         }
+    }
+
+    /// Why nothing is seen of it, or less than was asked for. It was `said` so in a scene that ends at a time.
+    fn remark(&self, said: &MotionLayer, scene_end_secs: f64) -> Option<String> {
+        if self.joints.is_empty() {
+            return Some(
+                "no joint of it has the name of a joint of the skeleton: it moves nothing"
+                    .to_owned(),
+            );
+        }
+        if self.start_secs > scene_end_secs {
+            return Some(format!(
+                "it starts at {} s, after the scene's end at {scene_end_secs} s",
+                self.start_secs
+            ));
+        }
+        let [_, last] = self.motion.range_secs();
+        let [from, to] = said.clip_secs?;
+        if from > last {
+            return Some(format!(
+                "it has nothing from {from} s on, and stands still: it ends at {last:.3} s"
+            ));
+        }
+        // To within a frame: times are written with few decimals.
+        (to > last + OVERHANG_SECS)
+            .then(|| format!("it ends at {last:.3} s, and its last pose stays until {to} s"))
     }
 
     fn sample_into(&self, time_secs: f64, pose: &mut LocalPose) {

@@ -1,14 +1,22 @@
 //! PNG pictures.
 
-use std::io::Write;
+use std::io::{self, Write};
 
 use crate::image::Image;
 
 /// Writes a picture as PNG. A picture with no transparent pixel is written without alpha.
 ///
 /// # Errors
-/// What `output` reports; a picture with no pixels.
-pub fn write_png(image: &Image, output: impl Write) -> Result<(), png::EncodingError> {
+/// What `output` reports, as it is; a picture with no pixels.
+pub fn write_png(image: &Image, output: impl Write) -> io::Result<()> {
+    write(image, output).map_err(|error| match error {
+        // The crate's own conversion keeps the text alone: nobody could tell a full disk from a lost one.
+        png::EncodingError::IoError(error) => error,
+        other => io::Error::other(other),
+    })
+}
+
+fn write(image: &Image, output: impl Write) -> Result<(), png::EncodingError> {
     let opaque = image
         .as_rgba()
         .chunks_exact(4)

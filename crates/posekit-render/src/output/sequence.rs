@@ -28,7 +28,7 @@ pub fn write_png_sequence(
         let mut bytes = Vec::new();
         write_png(image, &mut bytes).map(|()| bytes)
     };
-    let take = |index: usize, packed: Result<Vec<u8>, png::EncodingError>| {
+    let take = |index: usize, packed: io::Result<Vec<u8>>| {
         let bytes = packed.map_err(|error| FilmError::Encoder(error.to_string()))?;
         let mut place = output(index)?;
         place.write_all(&bytes)?;

@@ -268,7 +268,11 @@ impl Viewer {
                     self.loader.look_at(files);
                 }
                 Err(error) => {
-                    let text = format!("{}: {error}", folder.display());
+                    let text = format!(
+                        "{}: {}",
+                        folder.display(),
+                        posekit_formats::system::in_words(&error)
+                    );
                     self.notices.add(NoticeKind::Failure, text, now);
                 }
             }

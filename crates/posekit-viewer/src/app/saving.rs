@@ -170,7 +170,7 @@ impl Viewer {
         // Nothing takes the place of a good file that could not be opened again.
         scene::read(&bytes).map_err(|error| format!("not saved: {error}"))?;
         let written: std::io::Result<()> = files::write_beside(path, |file| file.write_all(&bytes));
-        written.map_err(|error| error.to_string())
+        written.map_err(|error| format!("not saved: {}", posekit_formats::system::in_words(&error)))
     }
 
     /// A scene was read: one that was left by an earlier run is kept as this one's from now on.

@@ -3,6 +3,8 @@
 use std::io::Read as _;
 use std::path::Path;
 
+use posekit_formats::system::in_words;
+
 use super::job::{self, Opened, Reading, SMALL_BYTES, Stop};
 use super::scene::{among, is_scene, read_scene};
 use super::{Event, Input, Listed, Outbox, Progress, Summary, SummaryNumbers};
@@ -124,12 +126,12 @@ fn read_file(reading: &Reading, path: &Path, name: &str) -> Result<Vec<u8>, Stop
     }
 }
 
-/// An operating system's message without its number.
+/// Why a file cannot be read, for people.
 fn plain(error: &std::io::Error) -> String {
     match error.kind() {
         std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
         std::io::ErrorKind::PermissionDenied => "reading it is not permitted".to_owned(),
-        _ => error.to_string(),
+        _ => in_words(error),
     }
 }
 

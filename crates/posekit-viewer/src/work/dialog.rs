@@ -254,9 +254,12 @@ pub fn write(outbox: &Outbox, parcel: Parcel, path: PathBuf) {
             Ok(()) => Event::Written {
                 message: format!("Saved {}", path.display()),
             },
-            Err(error) => Event::Failed {
-                message: format!("{}: not saved: {error}", path.display()),
-            },
+            Err(error) => {
+                let why = posekit_formats::system::in_words(&error);
+                Event::Failed {
+                    message: format!("{}: not saved: {why}", path.display()),
+                }
+            }
         });
     };
     crate::load::in_background(write);

@@ -283,6 +283,7 @@ mod desktop {
     use std::ops::ControlFlow;
     use std::path::{Path, PathBuf};
 
+    use posekit_formats::system::in_words;
     use posekit_render::output::{FilmError, write_apng, write_gif};
     use posekit_render::render::{Renderer, RendererChoice};
 
@@ -312,7 +313,7 @@ mod desktop {
                 }
                 Err(FilmError::Cancelled) => outbox.wake(),
                 Err(error) => {
-                    let message = format!("{}: {error}", path.display());
+                    let message = format!("{}: not saved: {}", path.display(), why_not(&error));
                     outbox.send(Event::Failed { message });
                 }
             }
@@ -324,6 +325,13 @@ mod desktop {
             running.shared.finished.store(true, Ordering::Relaxed);
         }
         running
+    }
+
+    fn why_not(error: &FilmError) -> String {
+        match error {
+            FilmError::Output(refused) => in_words(refused),
+            other => other.to_string(),
+        }
     }
 
     fn make(

@@ -5,6 +5,7 @@
 
 mod animate;
 mod arm_lab;
+mod authoring;
 mod clips;
 mod comparing;
 mod dialogs;

@@ -155,3 +155,36 @@ fn a_cancelled_video_leaves_nothing() {
     assert_eq!(std::fs::read_dir(&folder).expect("listed").count(), 0);
     std::fs::remove_dir_all(&folder).expect("removed");
 }
+
+#[test]
+#[cfg(unix)]
+fn what_the_system_refuses_is_said_in_plain_words() {
+    use posekit_viewer::load::{Event, Loader};
+    use posekit_viewer::work::export::{VideoFormat, start};
+    let mut session = Session::default();
+    session.open(arm(2));
+    let options = ExportOptions {
+        format: VideoFormat::Gif,
+        ..ExportOptions::default()
+    };
+    let file = std::env::temp_dir().join(format!("posekit-in-the-way-{}", std::process::id()));
+    std::fs::write(&file, "a file").expect("a temporary file");
+    let path = file.join("out.gif");
+    let mut loader = Loader::new(&egui::Context::default());
+    let take = Take::of(&session, &options);
+    let running = start(take, options.format, path.clone(), loader.outbox());
+    let began = std::time::Instant::now();
+    let mut events = Vec::new();
+    while events.is_empty() {
+        assert!(began.elapsed().as_secs() < 120, "it does not end");
+        std::thread::sleep(std::time::Duration::from_millis(10));
+        events = loader.take_events();
+    }
+    assert!(running.is_finished());
+    let [Event::Failed { message }] = events.as_slice() else {
+        panic!("{events:?}");
+    };
+    let why = "not saved: part of this path is a file, not a folder";
+    assert_eq!(*message, format!("{}: {why}", path.display()));
+    std::fs::remove_file(&file).expect("removed");
+}

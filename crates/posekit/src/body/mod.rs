@@ -18,6 +18,7 @@ mod feet;
 mod find;
 mod limb;
 mod name;
+mod shape;
 mod side;
 mod tree;
 mod twins;

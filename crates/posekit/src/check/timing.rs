@@ -52,8 +52,8 @@ pub(super) fn check_frame_time(motion: &Motion, config: &CheckConfig, findings: 
         (Severity::Warning, message)
     } else {
         let message = format!(
-            "the frame time is {secs} seconds: {:.6} frames a second",
-            1.0 / secs
+            "the frame time is {secs} seconds: {} frames a second",
+            (1e6 / secs).round() / 1e6
         );
         (Severity::Warning, message)
     };

@@ -26,7 +26,7 @@ pub enum TrackError {
     },
     /// A key does not come after the one before it, or as good as at the same time (within half of [`SHORTEST_SECS`]).
     #[error(
-        "key {index} at {time_secs:?} s does not come {LEAST_GAP_SECS:e} s or more after the key before it at {previous_secs:?} s"
+        "keys must come in the order of their times, {LEAST_GAP_SECS:e} s or more apart: key {index} is at {time_secs:?} s, the one before it at {previous_secs:?} s"
     )]
     NotAscending {
         /// Index of the key.

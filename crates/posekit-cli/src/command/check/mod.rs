@@ -24,6 +24,7 @@ use crate::similar;
 use crate::text::counted;
 use crate::up::{self, UpArgs};
 
+mod axes;
 mod elsewhere;
 mod order;
 mod report;

@@ -7,6 +7,7 @@ use posekit::check::{Severity, Unit};
 use posekit_formats::bvh::CheckEntry;
 use serde_json::{Value, json};
 
+use super::axes::Axes;
 use super::report::{self, Counts};
 use super::{Checked, order};
 use crate::console::{DIM, HEADING, styled};
@@ -24,6 +25,7 @@ pub(super) struct Total {
     /// In the order of their first finding.
     codes: Vec<CodeTotal>,
     fixable: Vec<String>,
+    axes: Axes,
 }
 
 /// The findings of one code and one severity in all files.
@@ -43,6 +45,9 @@ impl Total {
         let counts = Counts::of(&checked.entries);
         self.suspicious_count += usize::from(counts.errors + counts.warnings > 0);
         self.counts.add(counts);
+        if let Some(up) = checked.up {
+            self.axes.add(name, up);
+        }
         if checked.is_fixable {
             self.fixable.push(name.to_owned());
         }
@@ -131,6 +136,9 @@ impl Total {
             heading += &format!("; {} could not be read", grouped(self.failed_count));
         }
         writeln!(out, "{heading}")?;
+        for line in self.axes.lines() {
+            writeln!(out, "{line}")?;
+        }
         if self.codes.is_empty() {
             return Ok(());
         }
@@ -174,6 +182,7 @@ impl Total {
             "files": self.file_count,
             "failed": self.failed_count,
             "suspicious": self.suspicious_count,
+            "up": self.axes.json(),
             "codes": codes,
         })
     }

@@ -53,7 +53,7 @@ pub(crate) struct ConvertArgs {
     #[arg(long, value_name = "RATE")]
     fps: Option<f64>,
     /// Part of the motion, by frame (10..50, without the last; 10..) or by time (0.5s..2s)
-    #[arg(long, value_name = "RANGE")]
+    #[arg(long, value_name = "RANGE", allow_hyphen_values = true)]
     trim: Option<Trim>,
     /// Multiply every length, for example by 0.01 for centimetres to metres
     #[arg(long, value_name = "FACTOR")]

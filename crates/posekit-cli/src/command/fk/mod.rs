@@ -57,7 +57,7 @@ pub(crate) struct FkArgs {
     #[arg(long, requires = "output")]
     compress: bool,
     /// Frames by number from 0: 7, 0..100 (without the last), 0..200:5, 50.., or a list of these
-    #[arg(long, value_name = "FRAMES")]
+    #[arg(long, value_name = "FRAMES", allow_hyphen_values = true)]
     frames: Option<FrameSelection>,
     /// Joints by name or pattern, such as Hips,'*Hand'; a joint's parent is then its closest ancestor among them
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]

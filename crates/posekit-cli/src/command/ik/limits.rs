@@ -144,7 +144,8 @@ fn read(bytes: &[u8], skeleton: &Skeleton, limits: &mut JointLimits) -> Result<(
     let value: Value = serde_json::from_slice(bytes).map_err(|error| {
         let text = error.to_string();
         let what = text.split(" at line").next().unwrap_or(&text).to_owned();
-        Failure::new(format!("{}:{}: {what}", error.line(), error.column()))
+        let place = format!("{}:{}", error.line(), error.column());
+        Failure::new(format!("{place}: expected JSON, as in docs/ik.md: {what}"))
     })?;
     let Value::Object(entries) = value else {
         return Err(Failure::new(

@@ -58,7 +58,7 @@ pub(crate) struct IkArgs {
     #[command(flatten)]
     solver: SolverArgs,
     /// Frames by number from 0: 7, 0..100 (without the last), 0..200:5, 50.., or a list of these
-    #[arg(long, value_name = "FRAMES")]
+    #[arg(long, value_name = "FRAMES", allow_hyphen_values = true)]
     frames: Option<FrameSelection>,
     /// Work on the rest pose, which the OFFSETs alone make, as a motion of one frame
     #[arg(long, conflicts_with = "frames")]
@@ -105,15 +105,16 @@ pub(crate) struct IkArgs {
 
 const EXAMPLES: &str = "\
 Examples:
-  posekit ik walk.bvh --end LeftHand --offset 0,0.2,0 -o out.bvh      the hand 0.2 higher throughout
-  posekit ik walk.bvh --end LeftHand --start LeftUpperArm --target 0.4,1.2,0.3 --frames 0 -o out.bvh
+  posekit ik walk.bvh --end LeftHand --offset 0,0.2,0 -o out.bvh   the hand 0.2 higher throughout
+  posekit ik walk.bvh --end LeftHand --start LeftUpperArm --target 0.4,1.2,0.3 -o out.bvh
   posekit ik walk.bvh --start LeftToes --end LeftHand --target 0.5,1,0.6 -o out.bvh
-                                                                      the foot stays, the root moves
+                                                                   the foot stays, the root moves
   posekit ik walk.bvh --end RightHand --follow other.bvh:RightHand -o out.bvh
   posekit ik walk.bvh --end LeftHand --path way.csv --orient hold -o out.bvh
-  posekit ik walk.bvh --free-root --within-motion --end LeftFoot --orient hold --end RightFoot --orient hold \\
-      --end Hips --offset 0,-0.1,0 -o low.bvh                         crouch: feet stay, hips lower
-  posekit ik walk.bvh --rest --end LeftHand --target 0.5,0.8,0.5 --solver ccd --iterations 20 --trace way.json
+  posekit ik walk.bvh --free-root --within-motion --end LeftFoot --orient hold \\
+      --end RightFoot --orient hold --end Hips --offset 0,-0.1,0 -o low.bvh
+                                                                   crouch: feet stay, hips lower
+  posekit ik walk.bvh --rest --end LeftHand --target 0.5,0.8,0.5 --solver ccd --trace way.json
   posekit ik walk.bvh --end Head --offset 0.1,0,0 --json | jq .worst";
 
 /// Runs the command.

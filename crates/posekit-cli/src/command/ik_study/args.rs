@@ -77,7 +77,7 @@ pub(crate) struct IkStudyArgs {
         allow_hyphen_values = true,
         conflicts_with = "frame"
     )]
-    pub(super) root: Option<NamedPlace>,
+    pub(super) root: Option<Place>,
     /// Leave out all times, which differ from run to run
     #[arg(long)]
     pub(super) no_times: bool,
@@ -100,6 +100,21 @@ pub(super) struct NamedPlace {
     pub(super) name: Option<String>,
     /// Where it is, in the world.
     pub(super) place: DVec3,
+}
+
+/// A place in the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Place(pub(super) DVec3);
+
+impl FromStr for Place {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text.parse() {
+            Ok(NamedPlace { name: None, place }) => Ok(Self(place)),
+            _ => Err("expected three numbers, such as 0,0.93,0".to_owned()),
+        }
+    }
 }
 
 impl FromStr for NamedPlace {
@@ -142,6 +157,7 @@ mod tests {
             "", "1,2", "1,2,3,4", "x=1,2", "=1,2,3", "1,2,inf", "1,2,nan",
         ] {
             assert!(parsed(text).is_err(), "{text}");
+            assert!(text.parse::<Place>().is_err(), "{text}");
         }
     }
 }

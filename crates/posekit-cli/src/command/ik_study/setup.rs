@@ -1,5 +1,6 @@
 //! From the options to what is studied: the figure, its chains, and the targets of each.
 
+use std::collections::BTreeSet;
 use std::ffi::OsString;
 use std::sync::Arc;
 
@@ -102,6 +103,21 @@ pub(super) fn motion_of(skeleton: &Arc<Skeleton>, poses: &[LocalPose]) -> Motion
     Motion::from_poses(Arc::clone(skeleton), FrameTime::of_fps(30), moved, poses)
 }
 
+/// Refuses two targets of one name: nobody could tell them apart in the report.
+fn refuse_equal_names(args: &IkStudyArgs) -> Result<(), Failure> {
+    let mut names = BTreeSet::new();
+    for name in args
+        .targets
+        .iter()
+        .filter_map(|target| target.name.as_ref())
+    {
+        if !names.insert(name) {
+            return Err(Failure::usage(format!("two targets are called '{name}'")));
+        }
+    }
+    Ok(())
+}
+
 /// Reads the input and settles everything that is studied.
 pub(super) fn study(args: &IkStudyArgs, global: &Global) -> Result<Study, Failure> {
     let inputs = inputs::expand(std::slice::from_ref(&args.file));
@@ -111,6 +127,7 @@ pub(super) fn study(args: &IkStudyArgs, global: &Global) -> Result<Study, Failur
     let [input] = inputs.list.as_slice() else {
         return Err(Failure::usage("a study is of one file"));
     };
+    refuse_equal_names(args)?;
     Said::of(args.positions).refuse_scene(input)?;
     let motion = load::load(input, global)?
         .motion(args.positions.policies())
@@ -188,7 +205,7 @@ fn rest_pose(root_place: Option<DVec3>, skeleton: &Skeleton) -> LocalPose {
 
 /// Where the first root stands in the rest pose, if not where its OFFSET has it.
 fn root_place(args: &IkStudyArgs, skeleton: &Skeleton) -> Option<DVec3> {
-    let given = args.root.as_ref().map(|root| root.place);
+    let given = args.root.map(|root| root.0);
     given.or(is_course(skeleton).then_some(COURSE_ROOT))
 }
 

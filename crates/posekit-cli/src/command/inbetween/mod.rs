@@ -6,7 +6,7 @@ mod html;
 mod report;
 
 use std::ffi::OsString;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use posekit::inbetween::{FillMethod, FillPlan, MethodError, fill};
@@ -39,15 +39,10 @@ pub(crate) struct InbetweenArgs {
     #[arg(value_name = "FILE")]
     file: OsString,
     /// Keep every n-th frame, and the last one
-    #[arg(
-        long,
-        value_name = "N",
-        required_unless_present = "at",
-        conflicts_with = "at"
-    )]
+    #[arg(long, value_name = "N", conflicts_with = "at")]
     keep: Option<usize>,
     /// Keep these frames, by number from 0: 0,12,30 or 0..100:8
-    #[arg(long, value_name = "FRAMES")]
+    #[arg(long, value_name = "FRAMES", allow_hyphen_values = true)]
     at: Option<FrameSelection>,
     /// Put the kept frames so many frames apart: a new timing, which has no truth to compare with
     #[arg(long, value_name = "N", conflicts_with = "report")]
@@ -62,8 +57,9 @@ pub(crate) struct InbetweenArgs {
     )]
     method: Vec<FillMethod>,
     /// Write the comparison to NAME.html, NAME.md and NAME.csv [default NAME: the file's, -inbetween]
+    // A path may not be empty for clap, and without a name this is.
     #[arg(long, value_name = "NAME", num_args = 0..=1, require_equals = true, default_missing_value = "")]
-    report: Option<PathBuf>,
+    report: Option<OsString>,
     /// Write the motion that the first method fills in
     #[arg(long, short, value_name = "OUT")]
     output: Option<OsString>,
@@ -89,6 +85,14 @@ fn method_arg(word: &str) -> Result<FillMethod, String> {
 
 /// Runs the command.
 pub(crate) fn run(args: &InbetweenArgs, global: &Global) -> Result<(), Failure> {
+    match args.keep {
+        None if args.at.is_none() => {
+            let text = "say which frames are kept: --keep N, or --at FRAMES";
+            return Err(Failure::usage(text));
+        }
+        Some(0) => return Err(Failure::usage("--keep takes a number of frames from 1 on")),
+        _ => {}
+    }
     if let Some(output) = &args.output {
         extension::refuse_other(output, &["bvh"], extension::REDIRECT)?;
     }
@@ -107,7 +111,7 @@ pub(crate) fn run(args: &InbetweenArgs, global: &Global) -> Result<(), Failure> 
     let report = args
         .report
         .as_ref()
-        .map(|stem| report::targets(&report_stem(stem, input), &global.guard))
+        .map(|stem| report::targets(&report_stem(Path::new(stem), input), &global.guard))
         .transpose()?;
     let name = input.name();
     let in_file = |failure: Failure| failure.in_file(&name);
@@ -139,6 +143,10 @@ pub(crate) fn run(args: &InbetweenArgs, global: &Global) -> Result<(), Failure> 
     if args.frames.is_some() {
         return Err(Failure::usage("--frames makes a motion: say where with -o"));
     }
+    if plan.filled().is_empty() {
+        let text = "every frame from the first kept one to the last is kept, so there is nothing to fill in or compare";
+        return Err(in_file(Failure::usage(text)));
+    }
     let comparison = Comparison::new(&motion, &plan, &args.method, name, filled);
     comparison.print()?;
     match &report {
@@ -160,7 +168,7 @@ fn plan(args: &InbetweenArgs, motion: &Motion, global: &Global) -> Result<FillPl
             FillPlan::at(at.frames(frames)?, frames)
         }
         (None, Some(n)) => FillPlan::every(n, frames),
-        (None, None) => return Err(Failure::usage("say which frames are kept: --keep or --at")),
+        (None, None) => return Err(Failure::usage("no frame is kept")),
     };
     let usage = |error: posekit::inbetween::FillConfigError| Failure::usage(error.to_string());
     let plan = plan.map_err(usage)?;
@@ -202,7 +210,7 @@ fn write_motion(
 }
 
 /// The report's name without its extension.
-fn report_stem(asked: &std::path::Path, input: &Input) -> PathBuf {
+fn report_stem(asked: &Path, input: &Input) -> PathBuf {
     if !asked.as_os_str().is_empty() {
         return asked.to_owned();
     }

@@ -16,7 +16,7 @@ use crate::args::Global;
 use crate::console;
 use crate::extension;
 use crate::failure::Failure;
-use crate::inputs::{Input, Inputs, Source};
+use crate::inputs::{Input, Inputs, STDIN, Source};
 use crate::load;
 use crate::output::{Destination, Plan, write_whole};
 use crate::scene_file;
@@ -26,7 +26,7 @@ use crate::text::counted;
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct BakeArgs {
-    /// The scene file
+    /// The scene file, or '-'
     #[arg(value_name = "SCENE")]
     file: PathBuf,
     /// The .bvh to write, or '-' for standard output
@@ -68,13 +68,16 @@ pub(super) fn run(args: &BakeArgs, global: &Global) -> Result<(), Failure> {
         document: shot,
         report,
     } = scene_file::shot(&args.file, &scene, &global.guard)?;
-    let name = args.file.display().to_string();
+    let name = scene_file::name_of(&args.file);
     load::refuse_repairs(&name, &report, global)?;
     for warning in load::repair_lines(&name, &report.warnings) {
         console::warning(&warning);
     }
     let input = Input {
-        source: Source::File(args.file.clone()),
+        source: match args.file.as_os_str() == STDIN {
+            true => Source::Stdin,
+            false => Source::File(args.file.clone()),
+        },
         relative: file_name(&args.file),
     };
     let inputs = Inputs {

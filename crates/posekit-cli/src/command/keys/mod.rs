@@ -21,7 +21,7 @@ pub(crate) struct KeysArgs {
 
 const EXAMPLES: &str = "\
 Examples:
-  posekit keys reduce walk.bvh -o walk.posekit.toml              within 1 degree and 1 % of the height
+  posekit keys reduce walk.bvh -o walk.posekit.toml      within 1 degree and 1 % of the height
   posekit keys reduce walk.bvh -o walk.posekit.toml --angle 0.2 --distance 0.002
   posekit keys print walk.posekit.toml
   posekit keys bake walk.posekit.toml -o again.bvh --fps 60";

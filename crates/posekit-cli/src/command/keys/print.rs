@@ -19,7 +19,7 @@ use crate::text::{Align, Table, counted, trimmed};
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct PrintArgs {
-    /// The scene file
+    /// The scene file, or '-'
     #[arg(value_name = "SCENE")]
     file: PathBuf,
     /// Every key with its value, as comma-separated values
@@ -57,7 +57,7 @@ pub(super) fn run(args: &PrintArgs, global: &Global) -> Result<(), Failure> {
     let keys = rows.iter().map(|row| row.keys.len()).sum();
     let [start, end] = scene.range_secs;
     let title = if scene.title.is_empty() {
-        args.file.display().to_string()
+        scene_file::name_of(&args.file)
     } else {
         scene.title.clone()
     };

@@ -47,7 +47,7 @@ pub(crate) struct RenderArgs {
     pub(super) fps: Option<f64>,
     /// Frames by number from 0: 7, 0..100 (without the last), 0..200:5 [default: all; a picture: the
     /// middle one]
-    #[arg(long, value_name = "FRAMES")]
+    #[arg(long, value_name = "FRAMES", allow_hyphen_values = true)]
     pub(super) frames: Option<FrameSelection>,
     /// N pictures in a row with their times, spread over the motion
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=100))]

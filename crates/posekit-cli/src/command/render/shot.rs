@@ -322,10 +322,13 @@ fn surroundings(scene: &scene::Scene, file: &str, warnings: &mut Vec<String>) ->
     let prop = |prop: &scene::Prop| {
         let shape = PropShape::named(&prop.shape).unwrap_or_else(|| {
             let (name, shape) = (&prop.name, &prop.shape);
-            let warning = format!(
-                "{file}: prop '{name}': mesh files are not read; a box is drawn in place of {shape}"
-            );
-            warnings.push(warning);
+            let why = match shape.contains('.') {
+                true => "mesh files are not read",
+                false => "the shapes are box and sphere",
+            };
+            warnings.push(format!(
+                "{file}: prop '{name}': {why}; a box is drawn in place of {shape}"
+            ));
             PropShape::Box
         });
         Prop::new(&shape, prop.transform.clone())

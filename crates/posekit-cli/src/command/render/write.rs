@@ -103,7 +103,7 @@ fn encode(
         Product::Picture | Product::Numbered => {
             let scene = shot.scene(shot.times_secs.first().copied().unwrap_or(0.0));
             let image = renderer.render(&scene, shot.size.width, shot.size.height)?;
-            Ok(write_png(&image, output).map_err(io::Error::from)?)
+            Ok(write_png(&image, output)?)
         }
         Product::ContactSheet { .. } => {
             let sheet = ContactSheet {
@@ -113,7 +113,7 @@ fn encode(
             };
             let theme = &shot.options().theme;
             let image = render_contact_sheet(&sheet, &scene_at, theme, renderer)?;
-            Ok(write_png(&image, output).map_err(io::Error::from)?)
+            Ok(write_png(&image, output)?)
         }
         #[cfg(feature = "h264")]
         Product::Mp4 => write_mp4(&film(), &scene_at, renderer, output, &mut one_more),
@@ -139,7 +139,7 @@ fn write_numbered(
             .map_err(|error| {
                 Failure::new(error.to_string()).in_file(&path.display().to_string())
             })?;
-        write_whole(&target, |file| Ok(write_png(&image, file)?))?;
+        write_whole(&target, |file| write_png(&image, file))?;
         progress.advance("");
     }
     Ok(())

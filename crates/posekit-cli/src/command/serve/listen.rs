@@ -12,6 +12,7 @@ use hyper::server::conn::http1;
 use hyper::service::service_fn;
 use hyper::{Request, body::Incoming};
 use hyper_util::rt::{TokioIo, TokioTimer};
+use posekit_formats::system::in_words;
 use tokio::net::{TcpListener, TcpSocket};
 
 use crate::args::Global;
@@ -65,7 +66,7 @@ pub(super) fn serve(
     let runtime = tokio::runtime::Builder::new_current_thread()
         .enable_all()
         .build()
-        .map_err(|error| Failure::new(format!("cannot start serving: {error}")))?;
+        .map_err(|error| Failure::new(format!("cannot start serving: {}", in_words(&error))))?;
     runtime.block_on(async {
         let listener = listen(SocketAddr::new(address, port))
             .map_err(|error| cannot_listen(address, port, &error))?;
@@ -109,7 +110,7 @@ fn cannot_listen(address: IpAddr, port: u16, error: &io::Error) -> Failure {
         io::ErrorKind::AddrNotAvailable => {
             Failure::new(format!("{place}: this machine has no such address"))
         }
-        _ => Failure::new(format!("{place}: cannot listen: {error}")),
+        _ => Failure::new(format!("{place}: cannot listen: {}", in_words(error))),
     }
 }
 

@@ -14,8 +14,8 @@ use crate::bvh::{Bvh, BvhJoint, EndName, MAX_NAME_BYTES};
 /// last ones of `from`: `mixamorig:*` to `*`, or `*:*` to `*`, takes a prefix off.
 ///
 /// # Errors
-/// When no joint has the name, the format cannot hold the new one, `to` has more `*` than `from`, or a
-/// pattern would give two joints of different names the same one. The document is as it was then.
+/// When no joint has the name, the format cannot hold the new one, `to` has more `*` than `from`, or two joints of
+/// different names would get the same one. The document is as it was then.
 pub fn rename(bvh: &mut Bvh, from: &str, to: &str) -> Result<(), EditError> {
     let is_named = |joint: &&mut BvhJoint| joint.end_name != EndName::Implied || !joint.is_end_site;
     let mut joints: Vec<&mut BvhJoint> = bvh.joints.iter_mut().filter(is_named).collect();
@@ -26,12 +26,10 @@ pub fn rename(bvh: &mut Bvh, from: &str, to: &str) -> Result<(), EditError> {
         joints.iter().map(new_name).collect()
     } else {
         let pattern = Pattern::new(from, to)?;
-        let names: Vec<Option<Vec<u8>>> = joints
+        joints
             .iter()
             .map(|joint| pattern.new_name(&joint.name))
-            .collect();
-        refuse_merged(&joints, &names)?;
-        names
+            .collect()
     };
     if new_names.iter().all(Option::is_none) {
         return Err(EditError::NoSuchJoint {
@@ -43,6 +41,7 @@ pub fn rename(bvh: &mut Bvh, from: &str, to: &str) -> Result<(), EditError> {
             name: String::from_utf8_lossy(bad).into_owned(),
         });
     }
+    refuse_merged(&joints, &new_names)?;
     for (joint, name) in joints.iter_mut().zip(new_names) {
         if let Some(name) = name {
             joint.name = name;
@@ -75,7 +74,7 @@ fn refuse_merged(joints: &[&mut BvhJoint], new_names: &[Option<Vec<u8>>]) -> Res
     for (joint, new) in joints.iter().zip(new_names) {
         let new: &[u8] = new.as_ref().unwrap_or(&joint.name);
         if *old_of.entry(new).or_insert(&joint.name) != joint.name.as_slice() {
-            return Err(EditError::AmbiguousJoint {
+            return Err(EditError::MergedNames {
                 name: String::from_utf8_lossy(new).into_owned(),
             });
         }

@@ -117,6 +117,12 @@ pub enum EditError {
         /// The name.
         name: String,
     },
+    /// Two joints that have names of their own would share one.
+    #[error("two joints would be called '{name}'")]
+    MergedNames {
+        /// The name.
+        name: String,
+    },
     /// A joint cannot be given the transform.
     #[error("joint '{name}' cannot be moved: it has {what}")]
     CannotMove {

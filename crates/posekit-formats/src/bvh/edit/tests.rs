@@ -297,9 +297,11 @@ fn a_pattern_renames_every_joint_that_it_fits() {
     };
     let bvh = with(["l:Leg", "r:Leg", "Tail"]);
     let error = refused(&bvh, "*:*", "*");
-    assert!(matches!(error, EditError::AmbiguousJoint { name } if name == "Leg"));
+    assert!(matches!(error, EditError::MergedNames { name } if name == "Leg"));
     let error = refused(&bvh, "l:*", "Tail");
-    assert!(matches!(error, EditError::AmbiguousJoint { .. }));
+    assert!(matches!(error, EditError::MergedNames { .. }));
+    let error = refused(&bvh, "l:Leg", "Tail");
+    assert!(matches!(error, EditError::MergedNames { name } if name == "Tail"));
     assert!(matches!(
         refused(&bvh, "q*", "*"),
         EditError::NoSuchJoint { .. }

@@ -8,6 +8,9 @@ use toml::de::{DeTable, DeValue};
 use super::{Found, SceneProblemKind};
 use crate::report::quote;
 
+/// So many numbers of a list are shown in a message.
+const SHORT_LIST: usize = 6;
+
 /// What is wrong so far.
 #[derive(Default)]
 pub(crate) struct Problems {
@@ -129,6 +132,20 @@ impl<'a> Node<'a> {
         }
     }
 
+    /// A list of a few numbers, as it would be written.
+    fn short_list(&self) -> Option<String> {
+        let items = self.items().filter(|items| items.len() <= SHORT_LIST)?;
+        let numbers: Option<Vec<&str>> = items
+            .iter()
+            .map(|item| match item.value {
+                DeValue::Integer(number) if number.radix() == 10 => Some(number.as_str()),
+                DeValue::Float(number) => Some(number.as_str()),
+                _ => None,
+            })
+            .collect();
+        Some(format!("[{}]", numbers?.join(", ")))
+    }
+
     /// The value as a message shows it.
     pub(crate) fn shown(&self) -> String {
         match self.value {
@@ -137,7 +154,10 @@ impl<'a> Node<'a> {
             DeValue::Float(number) => quote(number.as_str().as_bytes()),
             DeValue::Boolean(truth) => truth.to_string(),
             DeValue::Datetime(_) => "a date".to_owned(),
-            DeValue::Array(items) => format!("a list of {}", items.len()),
+            DeValue::Array(items) => match self.short_list() {
+                Some(list) => quote(list.as_bytes()),
+                None => format!("a list of {}", items.len()),
+            },
             DeValue::Table(_) => "a table".to_owned(),
         }
     }
@@ -171,6 +191,12 @@ impl<'a> Fields<'a> {
             format!("{}.{name}", self.path)
         };
         Some(Node::new(value, path))
+    }
+
+    /// A field, if it is there, for a second look.
+    pub(crate) fn again(&self, name: &str) -> Option<Node<'a>> {
+        let value = self.table.get(name)?;
+        Some(Node::new(value, format!("{}.{name}", self.path)))
     }
 
     /// A field that must be there.

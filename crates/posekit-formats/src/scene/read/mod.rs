@@ -37,6 +37,8 @@ pub enum SceneProblemKind {
     Inconsistent,
     /// Angles that turn further than quaternions do between two keys: a warning.
     LostTurn,
+    /// A value that is drawn as another, or a name that stands for something else: a warning.
+    Doubtful,
 }
 
 /// One thing that is wrong with a file.

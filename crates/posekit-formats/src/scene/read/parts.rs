@@ -51,7 +51,20 @@ pub(super) fn scene(
     }
     let mut cameras = Vec::new();
     for mut table in fields.tables("camera", problems) {
-        cameras.extend(camera(&mut table, problems));
+        let camera = camera(&mut table, problems);
+        let same = |other: &Camera| {
+            camera
+                .as_ref()
+                .is_some_and(|camera| camera.name == other.name)
+        };
+        if cameras.iter().any(same)
+            && let Some(node) = table.again("name")
+        {
+            let message =
+                "another camera has this name, and is the one that it stands for".to_owned();
+            problems.warn(&node, SceneProblemKind::Doubtful, message);
+        }
+        cameras.extend(camera);
     }
     let mut lights = Vec::new();
     for mut table in fields.tables("light", problems) {
@@ -224,6 +237,21 @@ fn camera(fields: &mut Fields<'_>, problems: &mut Problems) -> Option<Camera> {
         ),
     };
     fields.finish(problems);
+    let [least, most] = LENSES_DEG;
+    doubt(
+        fields,
+        "vertical_fov_deg",
+        &view.vertical_fov_deg,
+        problems,
+        |&deg| {
+            (!(least..=most).contains(&deg)).then(|| {
+                format!(
+                    "an angle of {deg} degrees is drawn as {} degrees",
+                    deg.clamp(least, most)
+                )
+            })
+        },
+    );
     Some(Camera { name, view })
 }
 
@@ -236,6 +264,14 @@ fn light(fields: &mut Fields<'_>, problems: &mut Problems) -> Option<Light> {
         strength: or_default(fields, "strength", &NUMBER, &default.strength, problems),
     };
     fields.finish(problems);
+    doubt(fields, "strength", &shine.strength, problems, |&strength| {
+        (strength < 0.0).then(|| format!("a strength of {strength} is drawn as 0, no light"))
+    });
+    doubt(fields, "color", &shine.color, problems, |color| {
+        let most = color.max_element();
+        (most >= LIKE_BYTES)
+            .then(|| format!("{most} is {most} times as bright as full light, which is 1"))
+    });
     Some(Light { name, shine })
 }
 
@@ -260,6 +296,27 @@ fn prop(fields: &mut Fields<'_>, problems: &mut Problems) -> Option<Prop> {
         shape: shape?,
         transform,
     })
+}
+
+/// Angles of lenses that are drawn as they are.
+const LENSES_DEG: [f64; 2] = [1.0, 170.0];
+
+/// Parts of a colour from here on look like those that go up to 255.
+const LIKE_BYTES: f64 = 16.0;
+
+/// Warns of a value that is the same at all times and not drawn as it says.
+fn doubt<V: posekit::keyframe::KeyValue>(
+    fields: &Fields<'_>,
+    name: &str,
+    property: &Property<V>,
+    problems: &mut Problems,
+    why: impl FnOnce(&V) -> Option<String>,
+) {
+    if let (Property::Fixed(value), Some(node)) = (property, fields.again(name))
+        && let Some(message) = why(value)
+    {
+        problems.warn(&node, SceneProblemKind::Doubtful, message);
+    }
 }
 
 fn or_default<V: posekit::keyframe::KeyValue + std::ops::Neg<Output = V>>(

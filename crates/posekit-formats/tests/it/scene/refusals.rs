@@ -58,7 +58,7 @@ fn problems_have_a_place() {
         Kind::WrongValue,
         5,
         "range_secs",
-        "a list of 2",
+        "`[3, 2.5]`",
     );
     assert_refused(
         "= 24",
@@ -316,4 +316,27 @@ fn cases_are_refused_with_a_place() {
         let error = scene::read(&bytes).expect_err(name).in_file(name);
         assert!(error.contains(place), "{error}");
     }
+}
+
+#[test]
+fn values_that_are_drawn_as_others_are_warned_of() {
+    let text = "format = \"posekit scene\"\nversion = 2\nskeleton = { file = \"a.bvh\" }\n\
+                [[camera]]\nname = \"a\"\nvertical_fov_deg = 200\n[[camera]]\nname = \"a\"\n\
+                [[light]]\nstrength = -1\ncolor = [255, 200, 0]\n\
+                [[light]]\nstrength = 3\ncolor = [2, 1, 0]\n";
+    let (_, warnings) = scene::read_with_warnings(text.as_bytes()).unwrap();
+    let found: Vec<(usize, &str)> = warnings
+        .iter()
+        .map(|warning| (warning.location.line, warning.path.as_str()))
+        .collect();
+    assert_eq!(
+        found,
+        [
+            (6, "camera[0].vertical_fov_deg"),
+            (8, "camera[1].name"),
+            (10, "light[0].strength"),
+            (11, "light[0].color"),
+        ]
+    );
+    assert!(warnings[0].message.contains("drawn as 170 degrees"));
 }

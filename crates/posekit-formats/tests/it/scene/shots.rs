@@ -6,7 +6,7 @@ use std::sync::Arc;
 use posekit::motion::{FrameTime, Motion};
 use posekit::pose::LocalPose;
 use posekit::sample;
-use posekit_formats::scene::{Scene, SceneError, Shot, ShotError, SkeletonSource};
+use posekit_formats::scene::{MotionLayer, Scene, SceneError, Shot, ShotError, SkeletonSource};
 
 use super::nod;
 
@@ -26,7 +26,7 @@ fn pose(shot: &Shot, time_secs: f64) -> LocalPose {
 #[test]
 fn motions_play_one_after_the_other_and_keys_go_over_them() {
     let mut scene = Scene::new(SkeletonSource::File("sample:walk".into()));
-    let layer = |file: &str, start_secs, clip_secs| posekit_formats::scene::MotionLayer {
+    let layer = |file: &str, start_secs, clip_secs| MotionLayer {
         file: file.into(),
         start_secs,
         clip_secs,
@@ -80,14 +80,51 @@ fn a_scene_that_does_not_fit_says_what_does_not() {
     let mut scene = nod();
     scene.skeleton = SkeletonSource::File("sample:arm".into());
     let error = Shot::new(&scene, sample_motion).unwrap_err();
-    let missing = SceneError::NoSuchJoint {
-        joint: "Body".into(),
+    let ShotError::Scene(SceneError::NoSuchJoint { joint, joints }) = error else {
+        panic!("{error}");
     };
-    assert_eq!(error, ShotError::Scene(missing));
+    assert_eq!((joint.as_str(), joints[0].as_str()), ("Body", "Base"));
     let mut scene = nod();
     scene.tracks[1].joint = "Top".into();
     assert!(matches!(
         Shot::new(&scene, sample_motion),
         Err(ShotError::Scene(SceneError::EndSiteTurns { .. }))
     ));
+}
+
+#[test]
+fn motions_that_move_nothing_are_remarked_on() {
+    let remarks = |change: &dyn Fn(&mut MotionLayer)| {
+        let mut scene = Scene::new(SkeletonSource::File("sample:walk".into()));
+        scene.range_secs = [0.0, 2.0];
+        let mut layer = MotionLayer {
+            file: "sample:walk".into(),
+            start_secs: 0.0,
+            clip_secs: None,
+        };
+        change(&mut layer);
+        scene.motions.push(layer);
+        Shot::new(&scene, sample_motion).unwrap().remarks().to_vec()
+    };
+    assert!(remarks(&|_| ()).is_empty());
+    assert!(remarks(&|layer| layer.clip_secs = Some([1.0, 4.34])).is_empty());
+    for (change, wanted) in [
+        (
+            &(|layer: &mut MotionLayer| layer.file = "sample:arm".into())
+                as &dyn Fn(&mut MotionLayer),
+            "motion[0], sample:arm: no joint of it has the name",
+        ),
+        (&|layer| layer.start_secs = 3.0, "it starts at 3 s, after"),
+        (
+            &|layer| layer.clip_secs = Some([1.0, 9.0]),
+            "it ends at 4.333 s, and its last pose stays until 9 s",
+        ),
+        (
+            &|layer| layer.clip_secs = Some([5.0, 9.0]),
+            "it has nothing from 5 s on",
+        ),
+    ] {
+        let found = remarks(change);
+        assert!(found.len() == 1 && found[0].contains(wanted), "{found:?}");
+    }
 }

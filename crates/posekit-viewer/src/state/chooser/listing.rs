@@ -3,6 +3,8 @@
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
+use posekit_formats::system::in_words;
+
 /// More than anybody scrolls through; a folder of more is searched by its names' beginnings.
 pub(super) const MOST: usize = 20_000;
 
@@ -146,7 +148,7 @@ fn why(error: &std::io::Error) -> String {
         ErrorKind::PermissionDenied => "you do not have permission".to_owned(),
         ErrorKind::ReadOnlyFilesystem => "its file system is read-only".to_owned(),
         ErrorKind::NotFound => "it does not exist, or takes no new files".to_owned(),
-        _ => error.to_string(),
+        _ => in_words(error),
     }
 }
 

@@ -467,7 +467,10 @@ impl Chooser {
                     self.follow_text();
                     self.enter()
                 }
-                Err(error) => self.refuse(&format!("{} cannot be made: {error}", folder.display())),
+                Err(error) => {
+                    let why = posekit_formats::system::in_words(&error);
+                    self.refuse(&format!("{} cannot be made: {why}", folder.display()))
+                }
             },
         }
     }

@@ -43,7 +43,7 @@ pub struct Pin {
     pub orientation: Option<Quat>,
 }
 
-/// What is asked of limbs: undone and redone with the poses.
+/// The target and the pins: undone and redone with the poses.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Goals {
     /// Where the effector should be; `None` while it is where it is.
@@ -108,7 +108,7 @@ impl Default for IkSettings {
     }
 }
 
-/// What came of the last problem.
+/// The result of the last problem.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solved {
     /// Its report.

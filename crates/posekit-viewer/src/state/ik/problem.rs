@@ -17,17 +17,17 @@ use crate::state::edit::freedom;
 pub struct ProblemParts<'a> {
     /// The skeleton.
     pub skeleton: &'a Skeleton,
-    /// The document, which says what joints are free to do.
+    /// The document, whose channels say which way joints can turn.
     pub document: &'a Bvh,
     /// Where the effector should be.
     pub target: &'a Target,
     /// Whether it should be turned so, too.
     pub is_oriented: bool,
-    /// What is held, where it is held at this frame.
+    /// The pins, where they are at this frame.
     pub pins: &'a [Pin],
     /// How it is solved.
     pub settings: &'a IkSettings,
-    /// What joints can do.
+    /// The joint limits.
     pub limits: &'a Arc<JointLimits>,
 }
 
@@ -139,7 +139,7 @@ fn pin_target(pin: &Pin) -> IkTarget {
     }
 }
 
-/// What is held can only stay where it is if its own limb may give.
+/// A pinned joint can only stay where it is if its own limb is free to move.
 fn add_limbs_of_pins(skeleton: &Skeleton, problem: &mut IkProblem, pins: &[IkTarget]) {
     let Movable::Joints(movable) = &mut problem.movable else {
         return;

@@ -4,7 +4,7 @@ use posekit::ik::{IkProblem, IkReport, IkWorkspace, Solver, TraceDetail, TraceUp
 use posekit::pose::LocalPose;
 use posekit::skeleton::Skeleton;
 
-/// A solver's way, and how far along it we are.
+/// A recorded solver run, and the step that is shown.
 #[derive(Clone, Debug)]
 pub struct Stepper {
     problem: IkProblem,
@@ -17,7 +17,7 @@ pub struct Stepper {
 }
 
 impl Stepper {
-    /// Solves a problem and keeps the way.
+    /// Solves a problem and records every step.
     #[must_use]
     pub fn new(
         skeleton: &Skeleton,
@@ -52,7 +52,7 @@ impl Stepper {
         &self.problem
     }
 
-    /// What comes of it in the end.
+    /// The final result.
     #[must_use]
     pub fn report(&self) -> &IkReport {
         &self.report
@@ -84,12 +84,12 @@ impl Stepper {
         trace.iterations.get(iteration)?.updates.get(update)
     }
 
-    /// Goes to where so many updates are made.
+    /// Goes to the state after this many updates.
     pub fn go_to(&mut self, made: usize) {
         self.made = made.min(self.updates.len());
     }
 
-    /// Goes some updates on, or back.
+    /// Goes forward or back by some updates.
     pub fn step(&mut self, by: isize) {
         self.go_to(self.made.saturating_add_signed(by));
     }
@@ -123,7 +123,7 @@ impl Stepper {
         }
     }
 
-    /// The pose in which so many updates are made.
+    /// The pose after this many updates.
     #[must_use]
     pub fn pose(&self, skeleton: &Skeleton) -> LocalPose {
         let mut pose = self.start.clone();

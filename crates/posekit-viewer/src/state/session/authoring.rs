@@ -48,7 +48,7 @@ pub enum KeyWhat {
 /// What turns the figure under the pointer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Handles {
-    /// Nothing does.
+    /// Nothing.
     None,
     /// Rings and arrows on joints.
     Joints,
@@ -63,7 +63,7 @@ pub(super) struct Pending {
     time_secs: f64,
 }
 
-/// All of a session that is about authored clips.
+/// The part of a session that deals with authored clips.
 #[derive(Debug, Default)]
 pub(super) struct Authoring {
     open: BTreeMap<ClipId, Authored>,
@@ -116,8 +116,8 @@ impl Session {
         Some(done)
     }
 
-    /// Makes a clip an authored one, shown as its scene says. Edits of single poses are over: they are
-    /// in the scene, or were given up by whoever made it.
+    /// Makes a clip an authored one, shown as its scene says. Its edits of single poses are dropped: they are
+    /// in the scene by now, or were discarded by the caller.
     pub fn put_authored(&mut self, id: ClipId, authored: Authored) {
         let Some(index) = self.index_of(id) else {
             return;

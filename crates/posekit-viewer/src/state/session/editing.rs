@@ -21,7 +21,7 @@ use crate::state::edit::{ClipEdits, Spread, freedom, reachable};
 use crate::state::ik::Goals;
 use crate::state::mode::{Mode, Space, TURN_STEP_DEG, ToolSettings, move_step};
 
-/// A clip of so many frames is a recording, where it has no keys.
+/// A clip with at least this many frames and no keys counts as a recording.
 const CAPTURED_FRAMES: usize = 60;
 
 /// Over how long, on both sides, an edit of a recording fades until something else is chosen.
@@ -30,14 +30,14 @@ const CAPTURED_FALLOFF_SECS: f64 = 0.3;
 /// And over no more frames than these.
 const LONGEST_FALLOFF: usize = 240;
 
-/// What undo or redo has changed, for people.
+/// What undo or redo has changed, as shown to the user.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Changed {
     /// The step's name.
     pub name: String,
 }
 
-/// All of a session that is about editing.
+/// The part of a session that deals with editing.
 #[derive(Debug, Default)]
 pub(super) struct Editing {
     mode: Mode,
@@ -61,19 +61,19 @@ struct Held {
     pose: Arc<LocalPose>,
 }
 
-/// The name of the step that puts a turned joint in.
+/// The name of the undo step for a turned joint.
 fn step_name(verb: &str, clip: &Clip, joint: JointId) -> String {
     format!("{verb} {}", clip.skeleton().unique_name(joint))
 }
 
 impl Session {
-    /// What the window is for.
+    /// The mode of the window.
     #[must_use]
     pub fn mode(&self) -> Mode {
         self.editing.mode
     }
 
-    /// Changes what the window is for. Poses are edited standing still, and in the motion.
+    /// Changes the mode. Poses are edited with the playback stopped, and in the motion, not at rest.
     pub fn set_mode(&mut self, mode: Mode) {
         self.stop_editing();
         self.editing.mode = mode;
@@ -173,7 +173,7 @@ impl Session {
         self.editing.live.as_deref()
     }
 
-    /// From where the active clip's motion says to where its figure stands.
+    /// The transform from the motion's space to where the active figure stands.
     #[must_use]
     pub fn active_place(&self) -> Vec3 {
         let index = self.active_actor();
@@ -240,7 +240,7 @@ impl Session {
         });
     }
 
-    /// As [`put_pose`](Self::put_pose), and asks something new of limbs in the same step.
+    /// As [`put_pose`](Self::put_pose), and changes target and pins in the same step.
     pub(super) fn put_pose_and_goals(&mut self, name: &str, pose: LocalPose, goals: Goals) {
         if self.authored().is_some() {
             self.put_authored_pose(name, pose, Some(goals));
@@ -251,7 +251,7 @@ impl Session {
         self.edit_clip(|edits, clip| edits.set_pose(clip, name, frame, pose, goals));
     }
 
-    /// Asks something new of limbs, as one step.
+    /// Changes target and pins, as one step.
     pub(super) fn put_goals(&mut self, name: &str, goals: Goals) {
         if self.authored().is_some() {
             self.author(|authored| authored.set_goals(name, goals));
@@ -284,7 +284,7 @@ impl Session {
         Some(Changed { name })
     }
 
-    /// Does the last step again that was undone.
+    /// Redoes the step that was undone last.
     pub fn redo(&mut self) -> Option<Changed> {
         self.stop_editing();
         if self.authored().is_some() {
@@ -297,7 +297,7 @@ impl Session {
         Some(Changed { name })
     }
 
-    /// What was changed is to be seen.
+    /// Shows what was changed.
     fn go_to_edited(&mut self, frame: Option<usize>) {
         if let Some(frame) = frame
             && frame != self.clip_frame()
@@ -430,7 +430,7 @@ impl Session {
         joint.or(self.thing_drag())
     }
 
-    /// Takes a handle of the gizmo. False when there is nothing to take.
+    /// Grabs a handle of the gizmo. Returns false if there is nothing to grab.
     pub fn grab(&mut self, handle: Handle, pointer: Pos2, viewport: &Viewport) -> bool {
         self.stop_editing();
         self.transport.pause();
@@ -506,7 +506,7 @@ impl Session {
         Some(pose)
     }
 
-    /// Lets the handle go: what it did becomes a step.
+    /// Releases the handle: its change becomes one undo step.
     pub fn drop_handle(&mut self) {
         self.empty_hand();
         if self.drop_thing() {
@@ -536,7 +536,7 @@ impl Session {
         self.put_pose(&name, LocalPose::clone(&live));
     }
 
-    /// Lets the handle go without effect. True when one was held.
+    /// Releases the handle and takes its change back. Returns whether one was held.
     pub fn cancel_drag(&mut self) -> bool {
         self.empty_hand();
         if self.cancel_thing() {
@@ -550,7 +550,7 @@ impl Session {
         was_held
     }
 
-    /// Ends a drag and a solver's way without effect: something else has come between.
+    /// Cancels a drag or a run of steps, because something else is happening.
     pub(super) fn stop_editing(&mut self) {
         self.stop_stepping();
         self.cancel_drag();

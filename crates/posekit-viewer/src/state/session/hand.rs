@@ -41,7 +41,7 @@ impl Act {
     }
 }
 
-/// All of a session that is about what is in hand.
+/// The part of a session that deals with what follows the pointer.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Hand {
     /// What was asked for and waits for the pointer.
@@ -181,7 +181,7 @@ impl Session {
         self.editing.hand.held = Some(held);
     }
 
-    /// Nothing is in hand any more.
+    /// Stops following the pointer.
     pub(super) fn empty_hand(&mut self) {
         self.editing.hand = Hand::default();
     }

@@ -15,21 +15,21 @@ use crate::state::ik::{
 };
 use crate::state::mode::Space;
 
-/// All of a session that is about limbs.
+/// The part of a session that deals with limbs.
 #[derive(Debug, Default)]
 pub(super) struct Limbs {
     settings: IkSettings,
     workspace: IkWorkspace,
-    /// What came of the last problem, and of which clip and target that was.
+    /// The result of the last problem, with the clip and the target that it was for.
     solved: Option<(ClipId, Target, Solved)>,
     stepping: Option<Stepping>,
-    /// What joints can do within the motion of a clip, as it was when that was asked for first.
+    /// The ranges of the joints in a clip's motion, as they were when first needed.
     ranges: Option<(ClipId, Arc<JointLimits>)>,
     /// Where the target is dragged at the moment.
     pub(super) dragged: Option<Target>,
 }
 
-/// A solver's way that is gone step by step, and what it is about.
+/// A solver run that is shown step by step, and the joint and frame it is for.
 #[derive(Debug)]
 struct Stepping {
     stepper: Stepper,
@@ -37,7 +37,7 @@ struct Stepping {
     frame: usize,
 }
 
-/// Which joints are held, or no longer.
+/// Which joints to pin or release.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hold {
     /// The effector.
@@ -66,14 +66,14 @@ impl Session {
         }
     }
 
-    /// What came of the last problem, as long as its clip and its target are the ones shown: an undone one is not.
+    /// The result of the last problem, while its clip and target are still the ones shown; `None` once it is undone.
     #[must_use]
     pub fn solved(&self) -> Option<&Solved> {
         let (id, target, solved) = self.limbs.solved.as_ref()?;
         (self.active_id() == Some(*id) && self.target() == Some(*target)).then_some(solved)
     }
 
-    /// The joint that is brought to its target.
+    /// The joint that IK moves to the target.
     #[must_use]
     pub fn effector(&self) -> Option<JointId> {
         let clip = self.active_clip()?;
@@ -93,7 +93,7 @@ impl Session {
         }
     }
 
-    /// What is asked of limbs.
+    /// The target and the pins.
     #[must_use]
     pub fn goals(&self) -> Goals {
         if let Some(authored) = self.authored() {
@@ -103,13 +103,13 @@ impl Session {
             .map_or_else(Goals::default, |edits| edits.state().goals.clone())
     }
 
-    /// Whether the effector should be turned in a certain way, too.
+    /// Whether the target has an orientation, too.
     #[must_use]
     pub fn is_oriented(&self) -> bool {
         self.tools().ik_tool == Tool::MoveAndTurn
     }
 
-    /// Where the effector should be at the frame shown: where it is dragged or was, or where it is.
+    /// The target at the frame shown: where it is being dragged, where it was left, or else where the effector is.
     #[must_use]
     pub fn target(&self) -> Option<Target> {
         if let Some(dragged) = self.limbs.dragged {
@@ -132,7 +132,7 @@ impl Session {
             })
     }
 
-    /// What is held at the frame shown.
+    /// The pins at the frame shown.
     #[must_use]
     pub fn pins(&self) -> Vec<Pin> {
         let goals = self.goals();
@@ -160,8 +160,8 @@ impl Session {
         })
     }
 
-    /// The target is dragged to a place of the stage: the figure follows from the pose that it has, if
-    /// it is to. The new pose.
+    /// Moves the target to a place on the stage. If the figure is to follow, returns the new pose, solved from
+    /// the present one.
     pub(super) fn follow(&mut self, pose: &LocalPose, placement: Placement) -> Option<LocalPose> {
         let target = Target {
             position: placement.position - self.active_place(),
@@ -175,14 +175,14 @@ impl Session {
         self.solve_for(pose, &target)
     }
 
-    /// Whether joints keep within what they do in the motion: as was chosen, else for captured clips.
+    /// Whether joints stay within the ranges of the motion: as the user chose, or else for captured clips.
     #[must_use]
     pub fn keeps_within_motion(&self) -> bool {
         let chosen = self.limbs.settings.within_motion;
         chosen.unwrap_or_else(|| self.is_captured())
     }
 
-    /// What joints can do: what their channels can say and, where it is asked for, what they do.
+    /// The joint limits: those of the channels and, if wanted, the ranges of the motion.
     fn limits(&mut self) -> Option<Arc<JointLimits>> {
         let (id, clip) = (self.active?, self.active_clip()?);
         if !self.keeps_within_motion() {
@@ -199,7 +199,7 @@ impl Session {
         Some(ranges)
     }
 
-    /// What a clip's joints do is to be looked at anew.
+    /// Forgets the ranges of a clip's joints; they are worked out again when needed.
     pub(super) fn forget_ranges(&mut self, id: ClipId) {
         if self.limbs.ranges.as_ref().is_some_and(|(of, _)| *of == id) {
             self.limbs.ranges = None;
@@ -248,7 +248,7 @@ impl Session {
         Some(pose)
     }
 
-    /// The target stays where it was dragged, and the pose with it.
+    /// Keeps the target where it was dragged, and the pose with it.
     pub(super) fn put_target(&mut self, pose: Option<LocalPose>) {
         let (Some(target), Some(clip)) = (self.limbs.dragged.take(), self.active_clip()) else {
             return;
@@ -319,7 +319,7 @@ impl Session {
         self.put_goals("Forget the target", goals);
     }
 
-    /// The joints that something is about: none where the figure has none such.
+    /// The joints that a [`Hold`] stands for; empty if the figure has none.
     #[must_use]
     pub fn joints_to_hold(&self, what: Hold) -> Vec<JointId> {
         if what == Hold::Effector {
@@ -336,7 +336,7 @@ impl Session {
         }
     }
 
-    /// Holds joints where they are, or no longer if all of them are held already.
+    /// Pins joints where they are, or releases them if all are pinned already.
     pub fn toggle_pins(&mut self, what: Hold) {
         self.stop_editing();
         let joints = self.joints_to_hold(what);
@@ -362,14 +362,14 @@ impl Session {
         self.put_goals(name, goals);
     }
 
-    /// Holds one joint no longer.
+    /// Releases one joint.
     pub fn unpin(&mut self, joint: JointId) {
         let mut goals = self.goals();
         goals.pins.retain(|pin| pin.joint != joint);
         self.put_goals("Unpin", goals);
     }
 
-    /// Changes whether how a pinned joint is turned is held, too.
+    /// Switches whether a pinned joint keeps its orientation, too.
     pub fn hold_orientation(&mut self, joint: JointId, is_held: bool) {
         let Some(pose) = self.shown_global_pose() else {
             return;
@@ -382,14 +382,14 @@ impl Session {
         self.put_goals("Change a pin", goals);
     }
 
-    /// The solver's way, while it is gone step by step.
+    /// The solver run, while it is shown step by step.
     #[must_use]
     pub fn stepper(&self) -> Option<&Stepper> {
         self.limbs.stepping.as_ref().map(|way| &way.stepper)
     }
 
-    /// Starts to go the solver's way step by step. Where the figure has followed the target it begins
-    /// at the pose that the frame had before it was edited, otherwise at the pose that is shown.
+    /// Starts to show the solver step by step: from the pose before the edit if the figure has followed the
+    /// target, otherwise from the pose shown.
     pub fn start_stepping(&mut self) {
         self.stop_editing();
         let Some(clip) = self.active_clip().filter(|_| self.can_edit()) else {
@@ -421,7 +421,7 @@ impl Session {
         self.show_step();
     }
 
-    /// Goes along the solver's way.
+    /// Moves through the steps of the solver.
     pub fn step_solver(&mut self, go: impl FnOnce(&mut Stepper)) {
         if let Some(way) = &mut self.limbs.stepping {
             go(&mut way.stepper);
@@ -445,7 +445,7 @@ impl Session {
         }
     }
 
-    /// Ends stepping without effect. True when a solver's way was shown.
+    /// Ends stepping without changing anything. Returns whether there was a solver run to end.
     pub fn stop_stepping(&mut self) -> bool {
         let was_stepping = self.limbs.stepping.take().is_some();
         if was_stepping {
@@ -454,7 +454,7 @@ impl Session {
         was_stepping
     }
 
-    /// Ends stepping when something else is looked at; what goes with the time shown follows it.
+    /// Ends stepping when something else is shown; whatever depends on the time follows it.
     pub fn follow_changes(&mut self) {
         self.follow_time();
         self.follow_key_ghosts();

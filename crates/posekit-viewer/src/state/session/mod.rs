@@ -84,7 +84,7 @@ pub struct Session {
     limbs: Limbs,
     things: Things,
     authoring: Authoring,
-    /// What is to be told to whoever works here.
+    /// Messages for the user.
     told: Vec<String>,
 }
 
@@ -124,7 +124,7 @@ impl Session {
         session
     }
 
-    /// Leaves a word for whoever works here.
+    /// Leaves a message for the user.
     pub fn tell(&mut self, text: impl Into<String>) {
         let text = text.into();
         if !self.told.contains(&text) {
@@ -132,7 +132,7 @@ impl Session {
         }
     }
 
-    /// What was told since this was asked last.
+    /// The messages since the last call.
     pub fn take_told(&mut self) -> Vec<String> {
         std::mem::take(&mut self.told)
     }
@@ -436,7 +436,7 @@ impl Session {
         self.camera.rebase(before, after);
     }
 
-    /// Tells the shape of the view, width over height. A camera that was framed for another shape
+    /// Sets the aspect ratio of the view, width over height. A camera that was framed for another shape
     /// is framed again.
     pub fn set_aspect(&mut self, aspect: f32) {
         let valid = aspect.is_finite() && aspect > 0.0;

@@ -25,7 +25,7 @@ impl Session {
         }
     }
 
-    /// Lets the figure go back to where it was before it was shown in a pose.
+    /// Returns the figure to the pose it had before it was shown in another.
     pub fn drop_preview(&mut self) {
         self.hold(None);
     }

@@ -2,8 +2,11 @@
 
 use super::super::document::{Block, Document, Entry, Table, code};
 use super::super::experiment::Arrival;
+use super::super::method::Method;
 use super::super::statistics::{Quantiles, median};
-use super::{Numbers, counted, degrees, is_judged, judged_words, mark_best, micros, percent};
+use super::{
+    Numbers, counted, degrees, is_judged, judged_words, listed, mark_best, micros, percent,
+};
 
 pub(super) fn write(document: &mut Document, numbers: Numbers<'_>) {
     let study = numbers.study;
@@ -76,12 +79,52 @@ pub(super) fn write(document: &mut Document, numbers: Numbers<'_>) {
         is_text: false,
         rows,
     }));
-    if study.has_times {
-        document.paragraph(
-            "An iteration of one solver is not worth an iteration of another: CCD and FABRIK pass over the chain joint by joint, \
-             Two-bone is done in one step, and the others solve for all joints at once.",
-        );
+    if study.has_times && study.methods.len() > 1 {
+        document.paragraph(format!(
+            "An iteration of one solver is not worth an iteration of another: {}.",
+            what_an_iteration_is(&study.methods).join("; ")
+        ));
     }
+}
+
+/// What solvers do in an iteration, as parts of a sentence.
+fn what_an_iteration_is(methods: &[Method]) -> Vec<String> {
+    let of = |kind: fn(&Method) -> bool, one: &str, several: &str| {
+        let names: Vec<String> = methods
+            .iter()
+            .filter(|method| kind(method))
+            .map(|method| method.name().to_owned())
+            .collect();
+        match names.len() {
+            0 => None,
+            1 => Some(format!("{} {one}", listed(&names))),
+            _ => Some(format!("{} {several}", listed(&names))),
+        }
+    };
+    let goes = "over the chain joint by joint";
+    let parts = [
+        of(
+            |method| matches!(method, Method::Ccd | Method::Fabrik),
+            &format!("passes {goes}"),
+            &format!("pass {goes}"),
+        ),
+        of(
+            |method| {
+                matches!(
+                    method,
+                    Method::Transpose | Method::Dls | Method::Sdls | Method::Lm
+                )
+            },
+            "solves for all joints at once",
+            "solve for all joints at once",
+        ),
+        of(
+            |method| matches!(method, Method::TwoBone),
+            "is done in one step",
+            "are done in one step",
+        ),
+    ];
+    parts.into_iter().flatten().collect()
 }
 
 /// How a solver came to the targets of the first chain by which solvers are judged.

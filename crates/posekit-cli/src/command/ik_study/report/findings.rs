@@ -12,7 +12,7 @@ use super::{
 pub(super) fn write(document: &mut Document, numbers: Numbers<'_>) {
     let mut points: Vec<String> = Vec::new();
     points.extend(iteration_sentence(numbers));
-    points.push(loss_sentence(numbers));
+    points.extend((numbers.study.counts.len() > 1).then(|| loss_sentence(numbers)));
     points.extend(place_sentence(numbers));
     points.extend(out_of_reach_sentence(numbers));
     points.extend(chain_sentence(numbers));

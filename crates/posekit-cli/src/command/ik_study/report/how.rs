@@ -1,8 +1,9 @@
 //! How it was done: the problem, the solvers, what is measured.
 
 use super::super::document::{Block, Document, Entry, Table};
+use super::super::method::Method;
 use super::super::moving::FRAMES;
-use super::{Numbers, counted};
+use super::{Numbers, counted, listed};
 
 pub(super) fn write(document: &mut Document, numbers: Numbers<'_>) {
     let study = numbers.study;
@@ -35,10 +36,10 @@ pub(super) fn write(document: &mut Document, numbers: Numbers<'_>) {
          from there; one that rests within the tolerance stays as it is.",
     );
     document.blocks.push(Block::Table(Table {
-        caption:
-            "The solvers as they run here, with their defaults. $J$ is the Jacobian $∂f/∂θ$. In one iteration no joint turns by \
-             more than 45° with Transpose, DLS and SDLS, and by more than 57° (one radian) with LM."
-                .to_owned(),
+        caption: format!(
+            "The solvers as they run here, with their defaults.{}",
+            jacobian_words(&study.methods)
+        ),
         columns: ["solver", "one iteration", "source"]
             .map(str::to_owned)
             .to_vec(),
@@ -94,4 +95,27 @@ pub(super) fn write(document: &mut Document, numbers: Numbers<'_>) {
          red line where the end misses it. Quantiles are those of Hyndman and Fan's definition 7, as in NumPy.",
         counted(study.shown_count() as usize, "iteration")
     ));
+}
+
+/// What the Jacobian is and how far joints turn in an iteration, for those of the solvers that have one.
+fn jacobian_words(methods: &[Method]) -> String {
+    let clamped = methods
+        .iter()
+        .filter(|method| matches!(method, Method::Transpose | Method::Dls | Method::Sdls))
+        .map(|method| method.name().to_owned());
+    let clamped = listed(&clamped.collect::<Vec<_>>());
+    let mut most = Vec::new();
+    if !clamped.is_empty() {
+        most.push(format!("45° with {clamped}"));
+    }
+    if methods.contains(&Method::Lm) {
+        most.push("57° (one radian) with LM".to_owned());
+    }
+    match most.is_empty() {
+        true => String::new(),
+        false => format!(
+            " $J$ is the Jacobian $∂f/∂θ$. In one iteration no joint turns by more than {}.",
+            most.join(", and by more than ")
+        ),
+    }
 }

@@ -19,10 +19,13 @@ pub(super) fn write_one_target(document: &mut Document, numbers: Numbers<'_>) {
             write_named(document, numbers, index);
         }
     }
-    document.paragraph(
-        "The bold number of a column is its smallest. Pictures of the same runs show what numbers do not: which joints a \
-         solver uses.",
-    );
+    let bold = match study.methods.len() {
+        1 => "",
+        _ => "The bold number of a column is its smallest. ",
+    };
+    document.paragraph(format!(
+        "{bold}Pictures of the same runs show what numbers do not: which joints a solver uses."
+    ));
     picture_steps(document, numbers);
 }
 
@@ -229,6 +232,9 @@ fn pictured_counts(count: usize, usual: usize) -> Vec<usize> {
     chosen
 }
 
+/// From so many targets on a tenth of them is at least one.
+const FEW: usize = 10;
+
 pub(super) fn write_many_targets(document: &mut Document, numbers: Numbers<'_>) {
     let study = numbers.study;
     let is_judged = is_judged(study);
@@ -241,10 +247,14 @@ pub(super) fn write_many_targets(document: &mut Document, numbers: Numbers<'_>) 
         return;
     }
     document.section("Many targets: the influence of the number of iterations");
+    let (targets, name) = (counted(sample, "target"), code(&chain.name));
     document.paragraph(format!(
-        "One target may suit a solver by chance. Medians and tenths over {} within reach of {} say more.",
-        counted(sample, "target"),
-        code(&chain.name)
+        "One target may suit a solver by chance. {}",
+        match sample {
+            FEW.. => format!("Medians and tenths over {targets} within reach of {name} say more."),
+            1 => format!("There is one more within reach of {name}; `--random` makes more."),
+            _ => format!("There are {targets} within reach of {name}; `--random` makes more."),
+        }
     ));
     success_table(document, numbers);
     quantile_table(document, numbers);

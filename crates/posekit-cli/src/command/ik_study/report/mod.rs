@@ -281,7 +281,12 @@ fn micros(secs: f64) -> String {
 
 /// Marks the smallest or the largest of values, one for each row, in a column of a table; values that are
 /// equal share it.
+///
+/// One alone is not the best of anything.
 fn mark_best(rows: &mut [Vec<Entry>], column: usize, values: &[Option<f64>], is_least: bool) {
+    if rows.len() < 2 {
+        return;
+    }
     let sign = if is_least { 1.0 } else { -1.0 };
     let best = values
         .iter()
@@ -336,5 +341,8 @@ mod tests {
         mark_best(&mut rows, 0, &[Some(2.0), Some(1.0), None], true);
         let marks: Vec<Mark> = rows.iter().map(|row| row[0].mark).collect();
         assert_eq!(marks, [Mark::None, Mark::Best, Mark::None]);
+        let mut alone = vec![vec![Entry::new("x")]];
+        mark_best(&mut alone, 0, &[Some(2.0)], true);
+        assert_eq!(alone[0][0].mark, Mark::None);
     }
 }

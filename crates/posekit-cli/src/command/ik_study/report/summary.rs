@@ -141,12 +141,12 @@ fn success_sentence(numbers: Numbers<'_>) -> Option<String> {
         .iter()
         .filter(|target| is_judged(target))
         .count();
-    let sample = format!(
-        "Of {} {} of {}",
-        crate::text::grouped(sample),
-        judged_words(study),
-        code(&study.chains[0].name)
-    );
+    let judged = judged_words(study);
+    let sample = match sample {
+        1 => format!("Of one {}", judged.replace("targets", "target")),
+        _ => format!("Of {} {judged}", crate::text::grouped(sample)),
+    };
+    let sample = format!("{sample} of {}", code(&study.chains[0].name));
     let after = counted(study.shown_count() as usize, "iteration");
     if least <= best {
         return Some(format!(

@@ -90,13 +90,13 @@ impl Session {
         self.things.looks_through = Some(index);
     }
 
-    /// The shape of the shot's picture, width over height.
+    /// The aspect ratio of the shot's picture, width over height.
     #[must_use]
     pub fn frame_aspect(&self) -> f32 {
         self.things.frame_aspect
     }
 
-    /// Tells the shape of the shot's picture.
+    /// Sets the aspect ratio of the shot's picture.
     pub fn set_frame_aspect(&mut self, aspect: f32) {
         if aspect.is_finite() && aspect > 0.0 {
             self.things.frame_aspect = aspect;
