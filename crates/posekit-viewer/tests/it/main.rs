@@ -14,6 +14,7 @@ mod graph;
 mod hand;
 mod interpolation;
 mod limbs;
+mod lists;
 mod numbers;
 mod pictures;
 mod poses;
