@@ -76,12 +76,15 @@ async function fetchList() {
 async function findRuns() {
   const run = `${Date.now()}-${Math.random().toString(36).slice(2)}`;
   const prefix = "posekit page ";
+  // What was in this tab before is gone, though its lock may be let go a little later.
+  const before = sessionStorage.getItem("posekit page");
+  sessionStorage.setItem("posekit page", run);
   // A page that came by plain HTTP from another machine has no locks, and takes itself for the only one.
   if (!navigator.locks) return { run, others: [] };
   navigator.locks.request(prefix + run, () => new Promise(() => {})).catch(() => {});
   const { held = [] } = await navigator.locks.query();
   const names = held.map((lock) => lock.name).filter((name) => name.startsWith(prefix));
-  return { run, others: names.map((name) => name.slice(prefix.length)).filter((name) => name !== run) };
+  return { run, others: names.map((name) => name.slice(prefix.length)).filter((name) => name !== run && name !== before) };
 }
 
 /// Nothing, after a while.
@@ -93,8 +96,8 @@ try {
   const module = fetchModule();
   module.catch(() => {});
   const list = fetchList().catch(() => null);
-  const runs = findRuns();
-  runs.catch(() => {});
+  // Where a browser refuses to tell, the page takes itself for the only one.
+  const runs = findRuns().catch(() => ({ run: `${Date.now()}`, others: [] }));
   const viewer = import("./posekit_viewer.js?v=__VERSION__");
   const { default: init, start } = await viewer;
   await init({ module_or_path: module });
