@@ -14,7 +14,7 @@ import { fileURLToPath } from "node:url";
 import { PNG } from "pngjs";
 
 import { BROWSERS, WITHOUT_GRAPHICS } from "./browsers.mjs";
-import { Desk } from "./desk.mjs";
+import { Desk, WINDOW } from "./desk.mjs";
 import { difference, meanDifference, part, shrunk, standingOut } from "./picture.mjs";
 import { POSEKIT, serve } from "./site.mjs";
 
@@ -35,6 +35,10 @@ const LISTED = { download: 232, text: 206, second: 289 };
 
 /** The one listed clip that is in no further folder, when another one is open. */
 const LISTED_CLIP = [130, 235];
+
+/** Where a clip's scene is begun over its motion, and where one that was not saved is opened again. */
+const OVER_THE_MOTION = [112, 571];
+const OPEN_AGAIN = [535, 428];
 
 const GOLDEN = fileURLToPath(new URL("golden/wave_front.png", import.meta.url));
 
@@ -339,6 +343,52 @@ test("a scene is dropped, animated and saved, and the labs are there", { skip: !
   } finally {
     await desk.close();
     rmSync(folder, { recursive: true, force: true });
+  }
+});
+
+test("a scene that was not saved comes back with its motion, and not in another tab", { skip: !chromium }, async () => {
+  const desk = await Desk.open(chromium, `${site.address}?url=${encodeURIComponent("clips/a walk.bvh")}`);
+  try {
+    const scene = "a_walk.posekit.toml";
+    await desk.pauseAtStart();
+    await desk.press("a");
+    await desk.becomes({ mode: "Animate", working: false });
+    await desk.settled(() => desk.whole());
+    await desk.page.mouse.click(...OVER_THE_MOTION);
+    await desk.becomes({ clip: scene, working: false });
+    await desk.press("Shift+i");
+    const kept = await desk.until("the scene to be kept aside", () =>
+      desk.page.evaluate(() => Object.entries(localStorage).find(([key]) => key.startsWith("posekit kept "))?.[1]));
+    assert.match(kept, /^file = "a walk\.bvh"$/m, "the motion is called as its file is");
+
+    // In another tab nothing is asked: keys do what they do.
+    const tab = new Desk(chromium, desk.running, await desk.running.newPage());
+    await tab.page.setViewport(WINDOW);
+    await tab.goto(`${site.address}?url=clips/wave.bvh`);
+    await tab.becomes({ clip: "wave.bvh", working: false });
+    await tab.press("a");
+    await tab.becomes({ mode: "Animate" });
+    await tab.page.close();
+    await desk.page.bringToFront();
+
+    let asked = 0;
+    desk.page.on("dialog", async (dialog) => {
+      asked += 1;
+      await dialog.accept();
+    });
+    await desk.goto(`${site.address}?url=clips/wave.bvh`);
+    assert.equal(asked, 1, "the page is not left without a question");
+    await desk.becomes({ clip: "wave.bvh", working: false });
+    await desk.show("kept");
+    await desk.until("the scene to be open again", async () => {
+      await desk.page.mouse.click(...OPEN_AGAIN);
+      return (await desk.state()).clip === scene;
+    });
+    await desk.becomes({ lastFrame: 260, working: false });
+    await desk.show("open-again");
+    assert.deepEqual(desk.complaints, []);
+  } finally {
+    await desk.close();
   }
 });
 

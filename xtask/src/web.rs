@@ -33,6 +33,7 @@ pub fn build(out: &Path, wish: Wish) -> Result<(), String> {
         .join(TARGET)
         .join("web/posekit_viewer.wasm");
     fs::create_dir_all(out).map_err(|error| format!("{}: {error}", out.display()))?;
+    wire::unpack(out)?;
     Bindgen::new()
         .input_path(&built)
         .web(true)

@@ -16,6 +16,19 @@ pub struct Size {
     pub packed: usize,
 }
 
+/// Takes away what was packed before. Hosts prefer it: while the new files are packed, which takes a while, a browser
+/// would get one build's module with another's glue.
+pub fn unpack(folder: &Path) -> Result<(), String> {
+    let failed = |error: std::io::Error| format!("{}: {error}", folder.display());
+    for entry in fs::read_dir(folder).map_err(failed)?.flatten() {
+        let path = entry.path();
+        if path.extension().is_some_and(|ending| ending == "br") {
+            fs::remove_file(path).map_err(failed)?;
+        }
+    }
+    Ok(())
+}
+
 /// Writes `FILE.br` beside every file of a folder that gets smaller by it.
 pub fn pack(folder: &Path) -> Result<Vec<Size>, String> {
     let failed = |error: std::io::Error| format!("{}: {error}", folder.display());

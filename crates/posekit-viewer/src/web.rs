@@ -19,12 +19,38 @@ use crate::work::files::Parcel;
 /// What is saved can be had from the page for this long; browsers take it within moments.
 const DOWNLOAD_MS: i32 = 60_000;
 
-/// Starts the viewer in a canvas. `list` is the server's `clips.json`, or null where it has none.
+/// Which page this is among those of its origin in the browser, and the others that are open.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Runs {
+    /// What this one is called; no other is, or was, called so.
+    pub own: String,
+    /// What the others are called.
+    pub others: Vec<String>,
+}
+
+thread_local! {
+    static RUNS: std::cell::RefCell<Runs> = const {
+        std::cell::RefCell::new(Runs { own: String::new(), others: Vec::new() })
+    };
+}
+
+pub(crate) fn runs() -> Runs {
+    RUNS.with_borrow(Clone::clone)
+}
+
+/// Starts the viewer in a canvas. `list` is the server's `clips.json`, or null where it has none. `run` is what this
+/// page is called among those that are open in the browser, and `others` what those are called.
 ///
 /// # Errors
 /// When the browser offers neither WebGPU nor WebGL2.
 #[wasm_bindgen]
-pub async fn start(canvas: HtmlCanvasElement, list: JsValue) -> Result<(), JsValue> {
+pub async fn start(
+    canvas: HtmlCanvasElement,
+    list: JsValue,
+    run: String,
+    others: Vec<String>,
+) -> Result<(), JsValue> {
+    RUNS.set(Runs { own: run, others });
     let options = ViewerOptions {
         inputs: asked_address().map(Input::Path).into_iter().collect(),
         listing: listing_of(&list),

@@ -71,6 +71,22 @@ async function fetchList() {
   return response.ok ? await response.json() : null;
 }
 
+/// What this page is called among those of its origin that are open in the browser, and what the others are called.
+/// Each holds a lock of its name, which the browser lets go when the page is gone.
+async function findRuns() {
+  const run = `${Date.now()}-${Math.random().toString(36).slice(2)}`;
+  const prefix = "posekit page ";
+  // What was in this tab before is gone, though its lock may be let go a little later.
+  const before = sessionStorage.getItem("posekit page");
+  sessionStorage.setItem("posekit page", run);
+  // A page that came by plain HTTP from another machine has no locks, and takes itself for the only one.
+  if (!navigator.locks) return { run, others: [] };
+  navigator.locks.request(prefix + run, () => new Promise(() => {})).catch(() => {});
+  const { held = [] } = await navigator.locks.query();
+  const names = held.map((lock) => lock.name).filter((name) => name.startsWith(prefix));
+  return { run, others: names.map((name) => name.slice(prefix.length)).filter((name) => name !== run && name !== before) };
+}
+
 /// Nothing, after a while.
 const nothingAfter = (ms) => new Promise((done) => setTimeout(done, ms, null));
 
@@ -80,6 +96,8 @@ try {
   const module = fetchModule();
   module.catch(() => {});
   const list = fetchList().catch(() => null);
+  // Where a browser refuses to tell, the page takes itself for the only one.
+  const runs = findRuns().catch(() => ({ run: `${Date.now()}`, others: [] }));
   const viewer = import("./posekit_viewer.js?v=__VERSION__");
   const { default: init, start } = await viewer;
   await init({ module_or_path: module });
@@ -87,7 +105,8 @@ try {
   // The list is small and was asked for together with the module: a server that has not sent it by
   // now has a few seconds more.
   const clips = await Promise.race([list, nothingAfter(5000)]);
-  await start(document.getElementById("view"), clips);
+  const { run, others } = await runs;
+  await start(document.getElementById("view"), clips, run, others);
   cover.hidden = true;
   document.getElementById("view").focus();
 } catch (error) {

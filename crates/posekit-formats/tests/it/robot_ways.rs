@@ -4,10 +4,11 @@
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
 
-use posekit::ik::IkTarget;
+use glam::DVec3;
 use posekit::ik::robot::{
     RobotConfig, RobotWorkspace, Ways, WaysConfig, WaysMethod, solve_robot, ways_to,
 };
+use posekit::ik::{IkOutcome, IkTarget};
 use posekit::mechanism::Mechanism;
 use posekit::rotation::angle_between;
 use posekit::skeleton::JointId;
@@ -264,4 +265,101 @@ fn singular_arms_give_ways_that_reach() {
         assert!(!found.ways.is_empty());
         assert_ways(&robot, &target, &found);
     }
+}
+
+/// Hinges one after the other, a metre between them, that turn about Z by `ranges`; the tip a metre behind the last.
+fn chain(text: &mut String, name: &str, ranges: &[(f64, f64)]) {
+    let mut parent = "body".to_owned();
+    for (index, (lower, upper)) in ranges.iter().enumerate() {
+        let child = format!("{name}{index}");
+        let away = f64::from(u8::from(index > 0));
+        let _ = write!(
+            text,
+            "<link name='{child}'/><joint name='{child}' type='revolute'><parent link='{parent}'/><child link='{child}'/>\
+             <origin xyz='{away} 0 0'/><axis xyz='0 0 1'/><limit lower='{lower}' upper='{upper}' effort='1' \
+             velocity='1'/></joint>"
+        );
+        parent = child;
+    }
+    let _ = write!(
+        text,
+        "<link name='{name}tip'/><joint name='{name}tip' type='fixed'><parent link='{parent}'/>\
+         <child link='{name}tip'/><origin xyz='1 0 0'/></joint>"
+    );
+}
+
+/// A body with two arms, and the tip of the first.
+fn two_arms(first: &[(f64, f64)], second: &[(f64, f64)]) -> (Mechanism, JointId) {
+    let mut text = String::from("<robot name='two'><link name='body'/>");
+    chain(&mut text, "a", first);
+    chain(&mut text, "b", second);
+    text += "</robot>";
+    let document = urdf::read(text.as_bytes()).unwrap().document;
+    let tip = document.joint_of_link("atip").unwrap();
+    (document.to_robot(UpAxis::Z).unwrap(), tip)
+}
+
+#[test]
+fn what_does_not_move_the_tip_stays() {
+    // The second arm could go anywhere, and is outside its range besides.
+    let (robot, tip) = two_arms(&[(-3.0, 3.0); 3], &[(-2.0, 2.0), (0.5, 1.0)]);
+    let values = [0.4, 0.5, -0.3, 0.7, 0.2];
+    let goal = robot.global_frames(&values)[tip.index()];
+    let posed = IkTarget::position(tip, goal.position).with_orientation(goal.orientation);
+    for (target, least) in [(IkTarget::position(tip, goal.position), 4), (posed, 2)] {
+        let found = ways_to(&robot, &values, &target, &WaysConfig::default());
+        assert!(found.ways.len() >= least, "{}", found.ways.len());
+        for way in &found.ways {
+            let off = robot.global_frames(way)[tip.index()]
+                .position
+                .distance(goal.position);
+            assert!(off < 2e-6, "{off}");
+            assert_eq!(way[3..], values[3..], "{way:?}");
+        }
+    }
+}
+
+#[test]
+fn limits_are_blamed_only_where_they_are_in_the_way() {
+    let outcome_of = |ranges: &[(f64, f64)], others: &[(f64, f64)], place, attempts| {
+        let (robot, tip) = two_arms(ranges, others);
+        let mut values: Vec<f64> = robot.value_ranges().iter().map(|r| r.clamp(0.3)).collect();
+        let target = IkTarget::position(tip, place);
+        let config = RobotConfig {
+            max_attempts: attempts,
+            ..RobotConfig::default()
+        };
+        let workspace = &mut RobotWorkspace::new();
+        solve_robot(&robot, &mut values, &[target], &config, workspace).outcome
+    };
+    let far = DVec3::new(2.5, 1.0, 0.0);
+    let near = DVec3::new(0.2, 0.4, 0.0);
+    for attempts in [1, 40] {
+        let of = |ranges: &[(f64, f64)], others: &[(f64, f64)], place| {
+            outcome_of(ranges, others, place, attempts)
+        };
+        // Out of reach, with the other arm at an end of its range, and with the elbow as straight as it may be.
+        let ends_at_03 = [(0.3, 0.6)];
+        assert_eq!(of(&[(-3.0, 3.0); 2], &ends_at_03, far), IkOutcome::Stalled);
+        let nearly_straight = [(-3.0, 3.0), (0.05, 3.0)];
+        assert_eq!(of(&nearly_straight, &ends_at_03, far), IkOutcome::Stalled);
+        // The elbow does not bend far enough.
+        let stiff = [(-3.0, 3.0), (-0.5, 0.5)];
+        assert_eq!(of(&stiff, &ends_at_03, near), IkOutcome::LimitsInTheWay);
+        // It bends one way only, and the arm gets there that way.
+        let bends = [(-3.0, 3.0), (0.0, 3.0)];
+        assert_eq!(of(&bends, &ends_at_03, near), IkOutcome::Reached);
+    }
+    // The shoulder stands at the wrong end: another start gets there within the ranges.
+    let (robot, tip) = two_arms(&[(-3.1, 3.1), (-0.1, 0.1)], &[]);
+    let place = DVec3::new(-1.9979, 0.07, 0.0);
+    let mut values = vec![-3.1, 0.0];
+    let config = RobotConfig {
+        max_attempts: 1,
+        ..RobotConfig::default()
+    };
+    let target = [IkTarget::position(tip, place)];
+    let workspace = &mut RobotWorkspace::new();
+    let report = solve_robot(&robot, &mut values, &target, &config, workspace);
+    assert_ne!(report.outcome, IkOutcome::LimitsInTheWay, "{report:?}");
 }

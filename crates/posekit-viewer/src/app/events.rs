@@ -54,7 +54,7 @@ impl Viewer {
                     self.take_clip(ctx, purpose, read, *thumbnail);
                 }
                 Event::Poses { name, poses } => self.take_poses(&name, poses, now),
-                Event::Robot(robot) => self.take_robot(*robot, now),
+                Event::Robot { purpose, robot } => self.take_robot(purpose, *robot, now),
                 Event::FilledIn(filled) => {
                     self.interpolation.clip.take(filled.map(|filled| *filled))
                 }

@@ -6,6 +6,7 @@ use posekit_render::scene::Scene;
 use super::Viewer;
 use crate::command::{Command, apply_to_camera};
 use crate::gizmo::Tool;
+use crate::load::Purpose;
 use crate::panels::{Asked, arm_lab};
 use crate::state::arm::Robot;
 use crate::state::interpolation::Page;
@@ -25,8 +26,9 @@ impl Viewer {
         self.show_over_view(ui, (view, free), asked);
     }
 
-    /// Puts a robot that was read on the bench, and goes there.
-    pub(super) fn take_robot(&mut self, robot: Robot, now: f64) {
+    /// Puts a robot that was read on the bench, and goes there. Of several that were given together the first stands
+    /// there, whichever is read first.
+    pub(super) fn take_robot(&mut self, purpose: Purpose, robot: Robot, now: f64) {
         if let Some(note) = robot.note.clone() {
             self.notices.add(NoticeKind::Done, note, now);
         }
@@ -34,6 +36,19 @@ impl Viewer {
             let text = format!("{} was repaired while it was read: {repair}", robot.name);
             self.notices.add(NoticeKind::Done, text, now);
         }
+        let place = match purpose {
+            Purpose::Group { group, rank } => Some((group, rank)),
+            Purpose::Beside | Purpose::Replace(_) => None,
+        };
+        let is_behind = self.benched.zip(place).is_some_and(|(benched, place)| {
+            let (group, rank) = benched;
+            group == place.0 && rank < place.1
+        });
+        if is_behind {
+            self.lab.keep(robot);
+            return;
+        }
+        self.benched = place;
         self.lab.open(robot);
         self.session.set_mode(Mode::Lab);
     }

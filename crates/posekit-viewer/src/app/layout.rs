@@ -8,7 +8,7 @@ use super::poses::Left;
 use crate::command::{self, Command, Place};
 use crate::load::Job;
 use crate::panels::inspector::Checking;
-use crate::panels::sides::{Room, Side, Sides};
+use crate::panels::sides::{Room, Side, Sides, within};
 use crate::panels::{Asked, curves, export, help, inspector, joints, library, notices, row};
 use crate::panels::{text, top_bar, transport, view};
 use crate::state::mode::Mode;
@@ -39,7 +39,9 @@ impl Viewer {
             || self.is_asking()
             || self.is_choosing()
             || !matches!(self.export, export::ExportWindow::Closed);
-        if ui.ctx().text_edit_focused() {
+        // The key that ends typing takes the focus away before anything is shown; it is the field's all the same.
+        let ends_typing = self.was_typing && ui.input(|i| i.key_pressed(Key::Escape));
+        if ui.ctx().text_edit_focused() || ends_typing {
             return;
         }
         if busy {
@@ -156,7 +158,7 @@ impl Viewer {
             sides
                 .panel(Side::Left, "left", (180.0, 256.0), ui)
                 .frame(panel.inner_margin(Margin::symmetric(8, 6)))
-                .show(ui, |ui| self.show_left(ui, asked));
+                .show(ui, |ui| within(ui, |ui| self.show_left(ui, asked)));
         }
         if sides.right {
             sides
@@ -168,7 +170,9 @@ impl Viewer {
                         true => Checking::Running,
                         false => Checking::Done,
                     };
-                    inspector::show(ui, &mut self.session, checking, asked);
+                    within(ui, |ui| {
+                        inspector::show(ui, &mut self.session, checking, asked)
+                    });
                 });
         }
         if self.layout.text && !is_narrow {

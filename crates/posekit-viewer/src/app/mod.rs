@@ -113,6 +113,8 @@ pub struct Viewer {
     has_room_below: bool,
     /// At the left the joints, where there is no room for them beside the clips.
     shows_joints: bool,
+    /// Whether something was typed into when the window was drawn last.
+    was_typing: bool,
     help_open: bool,
     help_search: String,
     messages_open: bool,
@@ -122,6 +124,8 @@ pub struct Viewer {
     /// The clips that came with others: their group, and their place in it.
     grouped: BTreeMap<ClipId, (u32, usize)>,
     next_group: u32,
+    /// The group of the robot that was put on the bench last, and its place in it.
+    benched: Option<(u32, usize)>,
     /// The window's clock when the clip's clock was moved last.
     last_tick_secs: Option<f64>,
     places: Places,
@@ -186,6 +190,7 @@ impl Viewer {
             sides: Sides::default(),
             has_room_below: true,
             shows_joints: false,
+            was_typing: false,
             help_open: false,
             help_search: String::new(),
             messages_open: false,
@@ -193,6 +198,7 @@ impl Viewer {
             export_options: ExportOptions::default(),
             grouped: BTreeMap::new(),
             next_group: 0,
+            benched: None,
             last_tick_secs: None,
             places: Places::default(),
             picture_count: 0,
@@ -395,6 +401,7 @@ impl Viewer {
         self.take_keys(ui, &mut asked);
         self.show_panels(ui, &mut asked);
         let answered = self.show_windows(&ctx, &mut asked);
+        self.was_typing = ctx.text_edit_focused();
         self.picture_count += 1;
         self.is_current = !answered && asked.is_empty() && self.is_view_current();
         for request in std::mem::take(&mut asked.requests) {

@@ -273,6 +273,8 @@ impl Viewer {
                 }
                 Answer::Yes => {
                     for kept in std::mem::take(&mut self.saving.left) {
+                        #[cfg(target_arch = "wasm32")]
+                        let kept = self.with_addresses(kept);
                         let input = Input::Kept(Box::new(kept.clone()));
                         self.saving.opening.push(kept);
                         let group = self.new_group();
@@ -281,6 +283,18 @@ impl Viewer {
                 }
             }
         }
+    }
+
+    /// With where the server has the files that it names, which are known by their names alone.
+    #[cfg(target_arch = "wasm32")]
+    fn with_addresses(&self, mut kept: Kept) -> Kept {
+        let entries = &self.library.entries;
+        let address_of = |file: &String| {
+            let found = entries.iter().find(|entry| entry.name == *file);
+            found.map(|entry| entry.path.clone())
+        };
+        kept.addresses = kept.files().iter().filter_map(address_of).collect();
+        kept
     }
 
     /// Closes without saving.

@@ -52,6 +52,27 @@ fn is_robot(name: &str, bytes: &[u8]) -> bool {
     has_name || text.trim_ascii_start().first() == Some(&b'<')
 }
 
+/// Why a file is not opened that neither is called as a motion nor begins as one: it is no use to be told where in
+/// a picture the motion was expected.
+fn told_of_kind(stop: Stop, name: &str, bytes: &[u8]) -> Stop {
+    let ending = Path::new(name).extension();
+    let has_name = ending.is_some_and(|ending| ending.eq_ignore_ascii_case("bvh"));
+    let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+    let begins = text.trim_ascii_start().get(..BEGINNING.len());
+    let has_beginning = begins.is_some_and(|begins| begins.eq_ignore_ascii_case(BEGINNING));
+    match stop {
+        Stop::Failed(_) if !has_name && !has_beginning => Stop::Failed(format!(
+            "{name} is no motion that is read here. Opened are BVH files (.bvh), scenes (.posekit.toml), robots \
+             (.urdf) and saved poses (.poses.toml); other programs, such as Blender, save motions of other kinds as \
+             BVH."
+        )),
+        stop => stop,
+    }
+}
+
+/// The first word of a BVH file.
+const BEGINNING: &[u8] = b"HIERARCHY";
+
 /// Why a clip was not read.
 pub(super) enum Stop {
     Cancelled,
@@ -98,7 +119,8 @@ impl Reading {
         };
         match outcome {
             Ok(Opened::Robot(robot)) => {
-                self.outbox.send(Event::Robot(robot));
+                let purpose = self.purpose;
+                self.outbox.send(Event::Robot { purpose, robot });
             }
             Ok(Opened::Poses(name, poses)) => {
                 self.outbox.send(Event::Poses { name, poses });
@@ -201,7 +223,8 @@ impl Reading {
                 Robot::read(name, &bytes).map_err(|why| Stop::Failed(format!("{name}: {why}")))?;
             return Ok(Opened::Robot(Box::new(robot)));
         }
-        let mut clip = self.clip_of(name, source, &bytes)?;
+        let clip = self.clip_of(name, source, &bytes);
+        let mut clip = clip.map_err(|stop| told_of_kind(stop, name, &bytes))?;
         if bytes.len() <= MOST_TEXT_BYTES {
             clip.text = Some(Arc::new(bytes));
         }

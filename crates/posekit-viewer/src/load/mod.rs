@@ -145,7 +145,12 @@ pub enum Event {
         thumbnail: Box<ColorImage>,
     },
     /// A robot was read.
-    Robot(Box<Robot>),
+    Robot {
+        /// What it was read for.
+        purpose: Purpose,
+        /// It.
+        robot: Box<Robot>,
+    },
     /// A file of poses was read.
     Poses {
         /// Its name.

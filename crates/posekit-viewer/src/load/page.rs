@@ -16,6 +16,7 @@ use super::scene::{among, is_scene, read_scene};
 use super::{Event, Input, Listed, Listing, Outbox, Progress, Summary, thread};
 use crate::state::clip::Source;
 use crate::web;
+use crate::work::autosave::Kept;
 
 /// Clips larger than this are not fetched just to make a library's preview.
 const PREVIEW_LIMIT_BYTES: u64 = 8 << 20;
@@ -48,9 +49,8 @@ pub(super) fn read(reading: Reading, input: Input) {
                 return;
             }
             Input::Kept(kept) => {
-                let none = |_: &str| Err(NO_PLACE.to_owned());
-                let opened = kept.open(none).map(|read| Opened::Scene(Box::new(read)));
-                reading.hand_in(opened.map_err(Stop::Failed));
+                let opened = open_kept(kept, &watch, &reading.outbox).await;
+                reading.hand_in(opened);
                 return;
             }
             Input::Together { scene, others } => {
@@ -139,6 +139,25 @@ async fn open_at(name: &str, address: &Path, watch: &Watch<'_>) -> Result<Opened
     read_scene((name, None), &bytes, among(&files))
         .map(|read| Opened::Scene(Box::new(read)))
         .map_err(Stop::Failed)
+}
+
+/// A scene that was kept while it was not saved, with the files of it that the server has. Where others are wanted,
+/// what was kept goes to the downloads, to be opened together with them.
+async fn open_kept(kept: &Kept, watch: &Watch<'_>, outbox: &Outbox) -> Result<Opened, Stop> {
+    let mut files = Vec::new();
+    for address in &kept.addresses {
+        // One that is gone is told as missing.
+        if let Ok(bytes) = fetch(address, watch).await {
+            files.push((name_at(address), bytes));
+        }
+    }
+    match kept.open(among(&files)) {
+        Ok(read) => Ok(Opened::Scene(Box::new(read))),
+        Err(why) => {
+            web::hand_over(outbox, &kept.parcel());
+            Err(Stop::Failed(why))
+        }
+    }
 }
 
 /// The bytes of a file that was given to the page.

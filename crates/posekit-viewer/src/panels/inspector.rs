@@ -11,7 +11,7 @@ use crate::command::Command;
 use crate::icons::{self, Icon, icon_button};
 use crate::state::clip::Clip;
 use crate::state::mode::Mode;
-use crate::state::readout::{Readout, RotationReadout, fixed, readout_of};
+use crate::state::readout::{Readout, RotationReadout, fixed, readout_of, readout_of_pose};
 use crate::state::session::{Handles, Session};
 use crate::theme::{CURVES, GAP, Palette};
 
@@ -92,11 +92,19 @@ fn joint(ui: &mut Ui, session: &Session, clip: &Clip, asked: &mut Asked) {
     };
     ui.label(RichText::new(place).small().color(palette.quiet));
     let floor = session.stage().ground_height();
-    let Some(pose) = session.shown_local_pose() else {
+    let numbers = if let Some(rest) = session.rest_pose_shown() {
+        ui.label(
+            RichText::new("in the rest pose")
+                .small()
+                .color(palette.accent),
+        );
+        readout_of_pose(clip, joint, &rest, floor)
+    } else if let Some(pose) = session.shown_local_pose() {
+        let time_secs = session.transport.time_secs();
+        readout_of(clip, joint, (time_secs, &pose), floor)
+    } else {
         return;
     };
-    let time_secs = session.transport.time_secs();
-    let numbers = readout_of(clip, joint, (time_secs, &pose), floor);
     ui.add_space(GAP);
     rotation(ui, "Local rotation", &numbers, &numbers.local);
     rotation(ui, "Global rotation", &numbers, &numbers.global);

@@ -69,7 +69,10 @@ pub fn show(
                 .zip(&branches)
                 .filter(|(open, _)| library.passes(&open.clip.name))
             {
-                open_clip(ui, session, (open, branches), pictures.get(&open.id), asked);
+                let row = open_clip(ui, session, (open, branches), pictures.get(&open.id), asked);
+                if session.active_id() == Some(open.id) {
+                    bring_into_sight(ui, open.id, row);
+                }
             }
             if session.clips().is_empty() && jobs.is_empty() {
                 row::empty_note(ui, "Nothing is open. Drop a BVH file here.");
@@ -97,6 +100,21 @@ fn branches_of_open(session: &Session, library: &Library<Preview>) -> Vec<Vec<us
     branches
 }
 
+/// Brings the row of a clip that has become the active one into sight. Rows come and go while clips are read: it is
+/// brought there until it was seen, or the wheel is turned.
+fn bring_into_sight(ui: &Ui, active: ClipId, row: Rect) {
+    let id = ui.scope_id().with("active clip");
+    let seen: Option<ClipId> = ui.data(|data| data.get_temp(id));
+    if seen == Some(active) {
+        return;
+    }
+    let is_in_sight = ui.clip_rect().y_range().contains(row.center().y);
+    if is_in_sight || ui.input(|i| i.smooth_scroll_delta != egui::Vec2::ZERO) {
+        ui.data_mut(|data| data.insert_temp(id, active));
+    }
+    ui.scroll_to_rect(row, None);
+}
+
 /// A field to type a filter into.
 pub fn search(ui: &mut Ui, filter: &mut String, hint: &str) -> egui::Response {
     let palette = Palette::in_ui(ui);
@@ -120,11 +138,13 @@ pub fn search(ui: &mut Ui, filter: &mut String, hint: &str) -> egui::Response {
         let mut over = ui.new_child(egui::UiBuilder::new().max_rect(place));
         if sized_icon(&mut over, Icon::Close, "Show all", false, place.size()).clicked() {
             filter.clear();
+            // Another word is typed next, and without the focus its letters would be keys of the window.
+            response.request_focus();
         }
     }
-    if response.has_focus() && ui.input(|i| i.key_pressed(egui::Key::Escape)) {
+    // The key takes the focus away before anything is shown.
+    if response.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Escape)) {
         filter.clear();
-        response.surrender_focus();
     }
     response
 }
@@ -148,13 +168,14 @@ fn reading(ui: &mut Ui, job: &Job) {
     });
 }
 
+/// A clip that is open; where its row is.
 fn open_clip(
     ui: &mut Ui,
     session: &Session,
     (open, branches): (&OpenClip, &[usize]),
     picture: Option<&Texture>,
     asked: &mut Asked,
-) {
+) -> Rect {
     let chosen = session.active_id() == Some(open.id);
     let clip = &open.clip;
     let (rect, response) = row::row(ui, CLIP_ROW, chosen, &clip.name);
@@ -197,6 +218,7 @@ fn open_clip(
             Request::Activate(open.id)
         });
     }
+    rect
 }
 
 /// A button of a row: what it shows, says, whether it is on, and what it asks for.
@@ -371,7 +393,14 @@ fn folder(ui: &mut Ui, session: &Session, library: &mut Library<Preview>, asked:
     }
     let groups = library.groups(|entry| !is_open(&entry.path));
     if groups.is_empty() {
-        row::empty_note(ui, "No clip here passes the filter.");
+        let says = if library.entries.is_empty() {
+            "There is no clip in it."
+        } else if library.filter.trim().is_empty() {
+            "All its clips are open."
+        } else {
+            "No clip here passes the filter."
+        };
+        row::empty_note(ui, says);
     }
     let has_folders = groups.iter().any(|(group, _)| !group.is_empty());
     let mut toggled = None;

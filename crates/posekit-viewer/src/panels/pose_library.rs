@@ -170,7 +170,10 @@ fn save_button(ui: &mut Ui, session: &Session, library: &mut PoseLibrary, panel:
     if !button.on_hover_text(says).clicked() {
         return;
     }
-    let (Some(pose), Some(clip)) = (session.shown_local_pose(), session.active_clip()) else {
+    let pose = session
+        .rest_pose_shown()
+        .or_else(|| session.shown_local_pose());
+    let (Some(pose), Some(clip)) = (pose, session.active_clip()) else {
         return;
     };
     let name = match joints.as_slice() {

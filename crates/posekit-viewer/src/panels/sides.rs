@@ -114,6 +114,15 @@ impl Sides {
     }
 }
 
+/// Shows what is in a side in the room that the side has. What is wider than that is cut off at the edge: a
+/// panel grows to what is in it, and would take more of the window with every picture.
+pub fn within(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
+    let room = ui.available_rect_before_wrap();
+    let mut inner = ui.new_child(egui::UiBuilder::new().max_rect(room));
+    contents(&mut inner);
+    ui.advance_cursor_after_rect(room);
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -66,29 +66,51 @@ pub fn readout_of(
     (time_secs, local_pose): (f64, &LocalPose),
     floor: f32,
 ) -> Readout {
-    let axes = clip
-        .rotation_axes(joint)
-        .unwrap_or_else(|| DEFAULT_ORDER.to_vec());
-    let global_pose = local_pose.to_global(clip.skeleton());
-    let channels = channel_values(clip, joint, time_secs);
-    let file_angles: Vec<f64> = channels
+    let numbers = Readout {
+        channels: channel_values(clip, joint, time_secs),
+        ..readout_of_pose(clip, joint, local_pose, floor)
+    };
+    let file_angles: Vec<f64> = numbers
+        .channels
         .iter()
         .filter(|(channel, _)| matches!(channel, Channel::Rotation(_)))
         .map(|&(_, value)| value)
         .collect();
     let local_rotation = local_pose.rotations[joint.index()];
+    Readout {
+        local: rotation_readout(local_rotation, &axes_of(clip, joint), &file_angles),
+        speed: speed(clip, joint, time_secs),
+        turn_deg_per_sec: turn_speed(clip, joint, time_secs),
+        ..numbers
+    }
+}
+
+/// As [`readout`], of a pose that is at no time of the motion, such as the rest pose: nothing moves, and the file has no
+/// values for it.
+///
+/// # Panics
+/// If the joint is not one of the clip's, or the pose not one of its skeleton.
+#[must_use]
+pub fn readout_of_pose(clip: &Clip, joint: JointId, local_pose: &LocalPose, floor: f32) -> Readout {
+    let axes = axes_of(clip, joint);
+    let global_pose = local_pose.to_global(clip.skeleton());
     let position = global_pose.positions[joint.index()];
     Readout {
         order: axes.iter().map(|axis| axis_letter(*axis)).collect(),
-        local: rotation_readout(local_rotation, &axes, &file_angles),
+        local: rotation_readout(local_pose.rotations[joint.index()], &axes, &[]),
         global: rotation_readout(global_pose.orientations[joint.index()], &axes, &[]),
         position,
         translation: local_pose.translations[joint.index()],
-        speed: speed(clip, joint, time_secs),
-        turn_deg_per_sec: turn_speed(clip, joint, time_secs),
+        speed: None,
+        turn_deg_per_sec: None,
         height: position.y - floor,
-        channels,
+        channels: Vec::new(),
     }
+}
+
+fn axes_of(clip: &Clip, joint: JointId) -> Vec<Axis> {
+    clip.rotation_axes(joint)
+        .unwrap_or_else(|| DEFAULT_ORDER.to_vec())
 }
 
 /// The letter of an axis.

@@ -3,7 +3,8 @@
 //!
 //! Each run of the program has a folder entry of its own: a lock that it holds while it runs, and a file
 //! for each scene. Where the lock can be taken by another run, the one that held it is gone, and what it
-//! has left is offered. On a page the browser's local storage takes the folder's place.
+//! has left is offered. On a page the browser's local storage takes the folder's place, and its own locks, which it
+//! lets go when a page is gone, that of the lock.
 
 use std::collections::BTreeMap;
 
@@ -36,6 +37,9 @@ pub struct Kept {
     text: String,
     /// Under which key it lies.
     key: String,
+    /// Where the page's server has files that it names.
+    #[cfg(target_arch = "wasm32")]
+    pub addresses: Vec<std::path::PathBuf>,
 }
 
 impl Kept {
@@ -64,7 +68,30 @@ impl Kept {
             path: (!path.is_empty()).then(|| path.into()),
             text: text.to_owned(),
             key,
+            #[cfg(target_arch = "wasm32")]
+            addresses: Vec::new(),
         })
+    }
+
+    /// The files that it names.
+    #[cfg(target_arch = "wasm32")]
+    pub(crate) fn files(&self) -> Vec<String> {
+        let read = scene::read(self.text.as_bytes());
+        read.map_or_else(
+            |_| Vec::new(),
+            |scene| scene.files().into_iter().map(str::to_owned).collect(),
+        )
+    }
+
+    /// It as the file that it was not saved as.
+    #[cfg(target_arch = "wasm32")]
+    pub(crate) fn parcel(&self) -> crate::work::files::Parcel {
+        crate::work::files::Parcel {
+            name: self.name.clone(),
+            kind: "posekit scene",
+            extension: "toml",
+            bytes: self.text.as_bytes().into(),
+        }
     }
 
     /// The clip and its keys, which are in no file yet.
@@ -335,25 +362,31 @@ mod storage {
 
     use web_sys::Storage;
 
+    use crate::web::Runs;
+
     /// What keys start with.
     const PREFIX: &str = "posekit kept ";
 
-    /// The browser's local storage. What lies there when a page starts was left by one that is gone: a
-    /// page that is closed takes away what it has kept.
+    /// The browser's local storage, seen by one page. What lies there of others was left by them, unless they are
+    /// still there in another tab.
     #[derive(Debug)]
     pub(super) struct Shelf {
         storage: Storage,
+        /// What keys of this page start with, without the prefix.
         run: String,
+        /// The same of pages in other tabs.
+        others: Vec<String>,
         count: Cell<u32>,
     }
 
     impl Shelf {
         pub(super) fn new() -> Option<Self> {
             let storage = web_sys::window()?.local_storage().ok()??;
-            let run = format!("{PREFIX}{}", js_sys::Date::now());
+            let Runs { own, others } = crate::web::runs();
             Some(Self {
                 storage,
-                run,
+                run: own,
+                others,
                 count: Cell::new(0),
             })
         }
@@ -361,7 +394,7 @@ mod storage {
         pub(super) fn new_key(&self) -> String {
             let count = self.count.get() + 1;
             self.count.set(count);
-            format!("{}_{count}", self.run)
+            format!("{PREFIX}{}_{count}", self.run)
         }
 
         pub(super) fn write(&self, key: &str, text: &str) {
@@ -378,7 +411,17 @@ mod storage {
         pub(super) fn left(&self) -> Vec<(String, String)> {
             let count = self.storage.length().unwrap_or(0);
             let keys = (0..count).filter_map(|index| self.storage.key(index).ok().flatten());
-            let theirs = keys.filter(|key| key.starts_with(PREFIX) && !key.starts_with(&self.run));
+            let is_of = |key: &str, run: &str| {
+                let rest = key.strip_prefix(run);
+                rest.is_some_and(|rest| rest.starts_with('_'))
+            };
+            let is_left = |key: &String| {
+                let key = key.strip_prefix(PREFIX);
+                key.is_some_and(|key| {
+                    !is_of(key, &self.run) && !self.others.iter().any(|run| is_of(key, run))
+                })
+            };
+            let theirs = keys.filter(is_left);
             let read = |key: String| {
                 let text = self.storage.get_item(&key).ok().flatten()?;
                 Some((key, text))

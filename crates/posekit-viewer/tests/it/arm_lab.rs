@@ -502,3 +502,80 @@ fn what_is_clicked_wildly_does_no_harm() {
         assert!(range.contains(*value));
     }
 }
+
+/// A robot of hinges in one line, all about Z: singular as it stands.
+fn straight(name: &str, hinges: usize, comments: usize) -> Input {
+    use std::fmt::Write as _;
+    let mut text = String::from("<robot name='straight'><link name='l0'/>");
+    for index in 0..hinges {
+        let _ = write!(
+            text,
+            "<link name='l{child}'/><joint name='hinge_{child}' type='revolute'><parent link='l{index}'/>\
+             <child link='l{child}'/><origin xyz='0.3 0 0'/><axis xyz='0 {y} {z}'/>\
+             <limit lower='-3' upper='3' effort='1' velocity='1'/></joint>",
+            child = index + 1,
+            y = index % 2,
+            z = 1 - index % 2,
+        );
+    }
+    text += &"<!-- a comment, so that it takes longer to read -->".repeat(comments);
+    text += "</robot>";
+    file(name, &text)
+}
+
+#[test]
+fn of_robots_given_together_the_first_is_on_the_bench() {
+    let mut window = laptop(vec![input("arm.bvh", 5)]);
+    let robots = vec![
+        straight("first.urdf", 3, 0),
+        straight("second.urdf", 4, 40_000),
+        straight("third.urdf", 5, 0),
+    ];
+    let opens = |window: &mut Window, robots: Vec<Input>| {
+        let viewer = window.state_mut().as_mut().expect("the window was shown");
+        viewer.open_inputs(robots);
+    };
+    opens(&mut window, robots);
+    let listed = |viewer: &posekit_viewer::Viewer| viewer.lab().opened().len();
+    until(&mut window, |viewer| {
+        listed(viewer) == 3 && !viewer.is_working()
+    });
+    assert_eq!(viewer(&window).session().mode(), Mode::Lab);
+    assert_eq!(bench_of(&window).robot().name, "first.urdf");
+    // One that comes later takes its place.
+    opens(&mut window, vec![straight("later.urdf", 2, 0)]);
+    until(&mut window, |viewer| {
+        listed(viewer) == 4 && !viewer.is_working()
+    });
+    assert_eq!(bench_of(&window).robot().name, "later.urdf");
+}
+
+#[test]
+fn a_side_stays_as_wide_as_it_is_whatever_is_written_in_it() {
+    let mut window = laptop(vec![input("arm.bvh", 5)]);
+    let viewer_of = window.state_mut().as_mut().expect("the window was shown");
+    viewer_of.open_inputs(vec![straight("straight.urdf", 6, 0)]);
+    until(&mut window, |viewer| viewer.lab().bench().is_some());
+    window.run_steps(3);
+    // Rounding of any size must not make it wider: what cannot move is 0.
+    let measured = bench_of(&window).mobility();
+    assert_eq!(measured.singularity, Singularity::At);
+    let before = view_rect(&window);
+    window.run_steps(30);
+    assert_eq!(view_rect(&window), before);
+    window.get_by_label_contains("Another way");
+}
+
+#[test]
+fn buttons_that_are_pressed_again_stay_where_they_are() {
+    let mut window = lab_with("arm6");
+    let place = |window: &Window| window.get_by_label("Another way").rect();
+    let before = place(&window);
+    window.get_by_label("Another way").click();
+    window.run_steps(3);
+    assert!(
+        bench_of(&window).target().is_some(),
+        "there is more to tell"
+    );
+    assert_eq!(place(&window), before);
+}

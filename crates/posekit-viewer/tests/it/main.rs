@@ -15,6 +15,7 @@ mod graph;
 mod hand;
 mod interpolation;
 mod limbs;
+mod lists;
 mod numbers;
 mod pictures;
 mod poses;

@@ -1,11 +1,14 @@
 //! The inspector's and the curves' numbers, against values worked out by hand.
 
+use egui::{Key, Modifiers};
+use egui_kittest::kittest::Queryable as _;
 use glam::Vec3;
 use posekit::skeleton::JointId;
 use posekit_viewer::state::curves::{Quantity, curves};
-use posekit_viewer::state::readout::readout;
+use posekit_viewer::state::readout::{readout, readout_of_pose};
 
 use super::clips::{arm, walking};
+use super::window::{input, laptop, press, viewer};
 
 fn shoulder() -> JointId {
     JointId::new(0)
@@ -103,4 +106,38 @@ fn a_sample_has_curves_as_a_file_has() {
                 .all(|curve| curve.points.len() == clip.frame_count())
         );
     }
+}
+
+#[test]
+fn the_numbers_of_the_rest_pose_are_those_of_the_figure_that_is_seen() {
+    let mut window = laptop(vec![input("arm.bvh", 21)]);
+    let session = window.state_mut().as_mut().expect("shown").session_mut();
+    session.transport.pause();
+    session.transport.go_to_frame(13);
+    session.select(Some(JointId::new(1)));
+    window.run_steps(2);
+    let speed = window.query_all_by_label_contains("/s").count();
+    assert!(speed > 0, "a frame of the motion has a speed");
+    press(&mut window, Modifiers::SHIFT, Key::R);
+    window.get_by_label("in the rest pose");
+    // The elbow is two units above the shoulder, unturned, whatever the frame.
+    let session = viewer(&window).session();
+    let rest = session.rest_pose_shown().expect("it is shown");
+    let clip = session.active_clip().expect("open");
+    let numbers = readout_of_pose(clip, JointId::new(1), &rest, 0.0);
+    assert!(
+        numbers
+            .local
+            .euler_deg
+            .iter()
+            .all(|angle| angle.abs() < 1e-4),
+        "{numbers:?}"
+    );
+    assert!(numbers.global.vector_deg.length() < 1e-4);
+    assert_eq!(numbers.translation, Vec3::new(0.0, 2.0, 0.0));
+    assert_eq!((numbers.speed, numbers.channels.len()), (None, 0));
+    assert!(window.query_by_label("Channels in the file").is_none());
+    press(&mut window, Modifiers::SHIFT, Key::R);
+    assert!(window.query_by_label("in the rest pose").is_none());
+    window.get_by_label("Channels in the file");
 }

@@ -70,13 +70,13 @@ fn a_clip_arrives_with_its_preview() {
 #[test]
 fn what_is_no_motion_is_told_with_its_place() {
     let mut loader = loader();
-    loader.read(bytes("notes.txt", "dear diary"), Purpose::Beside);
+    loader.read(bytes("notes.bvh", "dear diary"), Purpose::Beside);
     match wait(&mut loader) {
         Event::GivenUp {
             message: Some(message),
             ..
         } => {
-            assert!(message.starts_with("notes.txt: line 1"), "{message}");
+            assert!(message.starts_with("notes.bvh: line 1"), "{message}");
         }
         other => panic!("{other:?}"),
     }
@@ -259,4 +259,43 @@ fn a_folder_given_by_a_relative_path_has_a_name_and_lists_nothing_twice() {
         assert_eq!(window.query_all_by_label(file).count(), 1, "{file}");
     }
     std::fs::remove_dir_all(&folder).expect("removed");
+}
+
+#[test]
+fn a_file_of_another_kind_is_told_by_its_kind_and_a_broken_motion_by_its_place() {
+    let told = |name: &str, text: &str| {
+        let mut loader = loader();
+        loader.read(bytes(name, text), Purpose::Beside);
+        match wait(&mut loader) {
+            Event::Failed { message }
+            | Event::GivenUp {
+                message: Some(message),
+                ..
+            } => message,
+            other => panic!("{name}: {other:?}"),
+        }
+    };
+    for (name, text) in [
+        ("figure.fbx", "Kaydara FBX Binary  \0\u{1a}\0"),
+        ("photo.png", "\u{89}PNG\r\n\u{1a}\n\0"),
+        ("notes.txt", "walk again on Tuesday"),
+        ("nothing", ""),
+    ] {
+        let message = told(name, text);
+        assert!(
+            message.starts_with(&format!("{name} is no motion")),
+            "{message}"
+        );
+        assert!(
+            message.contains(".bvh") && message.contains(".urdf"),
+            "{message}"
+        );
+        assert!(!message.contains("line"), "{message}");
+    }
+    let broken = arm_text(3).replacen("OFFSET 0", "OFFSET x", 1);
+    for name in ["arm.bvh", "ARM.BVH", "arm.txt", "arm"] {
+        let message = told(name, &broken);
+        assert!(message.starts_with(&format!("{name}: line ")), "{message}");
+    }
+    assert!(told("empty.bvh", "").contains("empty file"));
 }

@@ -14,7 +14,7 @@ use egui::{CentralPanel, Frame, Margin, Rect, Ui};
 use posekit::skeleton::JointId;
 
 use super::Asked;
-use super::sides::{Side, Sides};
+use super::sides::{Side, Sides, within};
 use crate::picture::painter::Painter;
 use crate::state::arm::ArmLab;
 use crate::state::arm::factors::Detail;
@@ -59,13 +59,15 @@ pub fn show(
         sides
             .panel(Side::Left, "lab joints", (230.0, 272.0), ui)
             .frame(side)
-            .show(ui, |ui| joints::show(ui, lab, panel, asked));
+            .show(ui, |ui| {
+                within(ui, |ui| joints::show(ui, lab, panel, asked))
+            });
     }
     if sides.right {
         sides
             .panel(Side::Right, "lab numbers", (240.0, 292.0), ui)
             .frame(side)
-            .show(ui, |ui| numbers::show(ui, lab));
+            .show(ui, |ui| within(ui, |ui| numbers::show(ui, lab)));
     }
     if !sides.is_under_view() {
         below::show(ui, lab, panel);

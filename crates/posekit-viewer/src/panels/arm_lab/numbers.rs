@@ -129,6 +129,9 @@ fn target(ui: &mut Ui, lab: &mut ArmLab) {
             ui.label(RichText::new(text).small().strong().color(color));
         }
     });
+    // Above what changes with them: they stay under the pointer that presses them again.
+    target_buttons(ui, lab, miss.is_some());
+    let Some(bench) = lab.bench() else { return };
     match miss {
         None => {
             let says = "Drag the arrows and rings at the tip; the joints follow.";
@@ -152,6 +155,10 @@ fn target(ui: &mut Ui, lab: &mut ArmLab) {
             }
         }
     }
+    ways(ui, lab);
+}
+
+fn target_buttons(ui: &mut Ui, lab: &mut ArmLab, has_target: bool) {
     ui.horizontal(|ui| {
         let says = "The same place by other joint angles: the next of all ways";
         if ui
@@ -161,14 +168,13 @@ fn target(ui: &mut Ui, lab: &mut ArmLab) {
         {
             lab.work(Bench::take_next_way);
         }
-        ui.add_enabled_ui(miss.is_some(), |ui| {
+        ui.add_enabled_ui(has_target, |ui| {
             let says = "There is nothing to reach any more";
             if ui.button("Let go").on_hover_text(says).clicked() {
                 lab.work(Bench::forget_target);
             }
         });
     });
-    ways(ui, lab);
 }
 
 /// The ways to the target, once they were looked for, each a button.
@@ -340,12 +346,17 @@ fn direction(d: DVec3) -> String {
     format!("{} {} {}", fixed(d.x, 2), fixed(d.y, 2), fixed(d.z, 2))
 }
 
+/// What is less than this is nothing that rounding did not make.
+const ROUNDING: f64 = 1e-12;
+
 /// Three digits that matter, however small.
 fn exact(value: f64) -> String {
-    if value != 0.0 && value.abs() < 1e-3 {
-        format!("{value:.2e}")
-    } else {
+    if value.abs() < ROUNDING {
+        "0".to_owned()
+    } else if value.abs() >= 1e-3 {
         fixed(value, 4)
+    } else {
+        format!("{value:.2e}")
     }
 }
 
@@ -383,7 +394,7 @@ fn bars(ui: &mut Ui, mobility: &Mobility, says: &str) {
 
 /// A bar with a number at its right.
 fn bar(ui: &mut Ui, share: f32, color: egui::Color32, text: &str) {
-    const NUMBER: f32 = 62.0;
+    const NUMBER: f32 = 72.0;
     let palette = Palette::in_ui(ui);
     let width = (ui.available_width() - NUMBER).max(20.0);
     let (rect, _) = ui.allocate_exact_size(vec2(width, 18.0), Sense::hover());

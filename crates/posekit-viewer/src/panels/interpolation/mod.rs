@@ -12,7 +12,7 @@ mod view;
 use egui::{CentralPanel, Color32, Frame, Margin, Panel, Rect, Ui};
 
 use super::Asked;
-use super::sides::{Side, Sides};
+use super::sides::{Side, Sides, within};
 use crate::picture::painter::Painter;
 use crate::state::display::Look;
 use crate::state::interpolation::{InterpolationLab, Page};
@@ -60,18 +60,22 @@ pub fn show(
         sides
             .panel(Side::Left, "interpolation left", (240.0, 268.0), ui)
             .frame(side)
-            .show(ui, |ui| match page {
-                Page::Orientations => keys::show(ui, lab),
-                Page::Clip => clip::choices::show(ui, lab),
+            .show(ui, |ui| {
+                within(ui, |ui| match page {
+                    Page::Orientations => keys::show(ui, lab),
+                    Page::Clip => clip::choices::show(ui, lab),
+                });
             });
     }
     if sides.right {
         sides
             .panel(Side::Right, "interpolation right", (250.0, 300.0), ui)
             .frame(side)
-            .show(ui, |ui| match page {
-                Page::Orientations => methods::show(ui, lab),
-                Page::Clip => clip::errors::show(ui, lab),
+            .show(ui, |ui| {
+                within(ui, |ui| match page {
+                    Page::Orientations => methods::show(ui, lab),
+                    Page::Clip => clip::errors::show(ui, lab),
+                });
             });
     }
     if !sides.is_under_view() {

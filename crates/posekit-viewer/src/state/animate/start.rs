@@ -110,10 +110,8 @@ fn file_name(clip: &Clip) -> Option<String> {
     match &clip.source {
         // A scene has no word for another way of reading a file.
         Source::File(_) if clip.reading != Reading::default() => None,
-        Source::File(path) if cfg!(target_arch = "wasm32") => {
-            let name = path.file_name()?.to_str()?;
-            Some(name.to_owned())
-        }
+        // On a page the path is an address, with signs for blanks: the file is called as the clip is.
+        Source::File(_) if cfg!(target_arch = "wasm32") => Some(clip.name.clone()),
         Source::File(path) => super::place::absolute(path).to_str().map(str::to_owned),
         Source::Sample(name) => Some(format!("{SAMPLE_PREFIX}{name}")),
         Source::Bytes | Source::Made | Source::Scene(_) => None,

@@ -74,13 +74,19 @@ impl Default for ArmLab {
 impl ArmLab {
     /// Puts a robot on the bench that was read from a file. One of the same name makes room for it.
     pub fn open(&mut self, robot: Robot) {
+        let robot = self.keep(robot);
+        self.put(robot);
+    }
+
+    /// Lists a robot that was read from a file, and leaves the one on the bench there.
+    pub fn keep(&mut self, robot: Robot) -> Arc<Robot> {
         let robot = Arc::new(robot);
         self.opened.retain(|other| other.name != robot.name);
         self.opened.push(Arc::clone(&robot));
         if self.opened.len() > MOST_OPENED {
             self.opened.remove(0);
         }
-        self.put(robot);
+        robot
     }
 
     /// Puts one of posekit's own robots on the bench. Does nothing for a name that is none.

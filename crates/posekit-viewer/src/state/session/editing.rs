@@ -15,7 +15,7 @@ use super::hand::Hand;
 use super::{ClipId, Handles, Session};
 use crate::gizmo::{Drag, Gizmo, Handle, Placement, Snap, Tool, Viewport};
 use crate::state::animate::Authored;
-use crate::state::clip::{Clip, nearest_index};
+use crate::state::clip::{Clip, nearest_index, rest_motion};
 use crate::state::display::PoseShown;
 use crate::state::edit::{ClipEdits, Spread, freedom, reachable};
 use crate::state::ik::Goals;
@@ -165,6 +165,15 @@ impl Session {
             Some(held) => LocalPose::clone(held),
             None => clip.local_pose(self.transport.time_secs()),
         })
+    }
+
+    /// The rest pose of the active clip, where its figure stands, while that is shown.
+    #[must_use]
+    pub fn rest_pose_shown(&self) -> Option<LocalPose> {
+        let clip = self.active_clip()?;
+        let time = self.transport.time_secs();
+        (self.pose_shown == PoseShown::Rest)
+            .then(|| rest_motion(&clip.motion, time, Vec3::ZERO).pose(0))
     }
 
     /// The pose that the figure is held in while a handle is dragged.

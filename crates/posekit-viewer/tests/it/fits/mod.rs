@@ -11,7 +11,8 @@ mod states;
 
 use std::collections::BTreeSet;
 
-use egui::{Vec2, vec2};
+use egui::{Rect, Vec2, vec2};
+use egui_kittest::kittest::Queryable as _;
 use posekit_viewer::state::display::Look;
 
 use super::window::viewer;
@@ -46,7 +47,24 @@ impl Tour {
     /// Looks at the window as it is.
     fn look(&mut self, name: &str) {
         self.watched.window.run_steps(3);
+        // A panel that grows to what is in it grows with every picture.
+        let before = self.view_place();
+        self.watched.window.run_steps(2);
+        let after = self.view_place();
+        if before != after {
+            let fault = format!("{name}: the view goes from {before:?} to {after:?} by itself");
+            self.faults.push(fault);
+        }
         self.look_now(name);
+    }
+
+    /// Where the view of the stage, or of a lab, is.
+    fn view_place(&self) -> Option<Rect> {
+        let mut views = self
+            .watched
+            .window
+            .query_all_by_label_contains("View of the");
+        views.next().map(|view| view.rect())
     }
 
     /// The same without letting time pass.

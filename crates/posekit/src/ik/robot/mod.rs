@@ -68,7 +68,8 @@ impl Default for RobotConfig {
 /// What came of [`solve_robot`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobotReport {
-    /// Why it stopped. Never [`OutOfReach`](IkOutcome::OutOfReach), which is not known of a robot.
+    /// Why it stopped. Never [`OutOfReach`](IkOutcome::OutOfReach), which is not known of a robot:
+    /// it [`Stalled`](IkOutcome::Stalled).
     pub outcome: IkOutcome,
     /// How many iterations were made in all attempts.
     pub iterations: u32,
@@ -175,17 +176,59 @@ pub fn solve_robot(
             };
         }
     }
-    let joints_at_limit = joints_at_limit(mechanism, values);
-    if outcome == IkOutcome::Stalled && !joints_at_limit.is_empty() {
+    let residuals = model.residuals();
+    if outcome == IkOutcome::Stalled && are_limits_in_the_way(&mut model, values, system, config) {
         outcome = IkOutcome::LimitsInTheWay;
     }
     RobotReport {
         outcome,
         iterations,
         attempts,
-        residuals: model.residuals(),
-        joints_at_limit,
+        residuals,
+        joints_at_limit: joints_at_limit(mechanism, values),
     }
+}
+
+/// How many starts say whether ranges are in the way, within them and without them each.
+const STARTS_TO_BLAME: u32 = 20;
+
+/// Whether the ranges are what keeps a robot, which came to rest at `values`, from its targets: without them some start
+/// reaches the targets, and within them none does. What the robot does not need for its targets may be at an end of its
+/// range for all that.
+fn are_limits_in_the_way(
+    model: &mut RobotModel<'_>,
+    values: &[f64],
+    system: &mut System,
+    config: &RobotConfig,
+) -> bool {
+    if !model.is_at_limit(AT_LIMIT) {
+        return false;
+    }
+    let mut random = Random::seeded(config.seed);
+    let patience = Patience {
+        most: config.stop.max_iterations,
+        slow_gain: ATTEMPT_SLOW_GAIN,
+        slow_step: f64::INFINITY,
+        slow_in_row: ATTEMPT_SLOW_IN_ROW,
+    };
+    // Where it was searched long enough, it is known that no start within the ranges gets there.
+    let is_searched = config.max_attempts >= STARTS_TO_BLAME;
+    let mut is_reached_from_somewhere = |model: &mut RobotModel<'_>| {
+        (0..STARTS_TO_BLAME).any(|_| {
+            minimize(model, system, &config.levenberg, &patience);
+            let is_reached = model.is_reached();
+            if !is_reached {
+                model.randomize(&mut random);
+            }
+            is_reached
+        })
+    };
+    if !is_searched && is_reached_from_somewhere(model) {
+        return false;
+    }
+    model.forget_ranges();
+    model.set_values(values);
+    is_reached_from_somewhere(model)
 }
 
 fn joints_at_limit(mechanism: &Mechanism, values: &[f64]) -> Vec<JointId> {

@@ -378,6 +378,21 @@ impl<'a> RobotModel<'a> {
         tree.place();
     }
 
+    /// Whether something that targets depend on is at an end of its range, or no further from it than `near`.
+    pub(super) fn is_at_limit(&self, near: f64) -> bool {
+        self.tree.scalars.iter().any(|scalar| {
+            let value = self.tree.values[scalar.value];
+            !scalar.is_ball && (value - scalar.range.lower).min(scalar.range.upper - value) <= near
+        })
+    }
+
+    /// Lets everything that targets depend on move without end, until the robot is compiled again.
+    pub(super) fn forget_ranges(&mut self) {
+        for scalar in &mut self.tree.scalars {
+            scalar.range = ValueRange::FREE;
+        }
+    }
+
     /// How far each effector is from its target.
     pub(super) fn residuals(&self) -> Vec<IkResidual> {
         let targets = self.targets.iter().enumerate();

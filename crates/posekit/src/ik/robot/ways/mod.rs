@@ -6,8 +6,9 @@
 //! Any other robot is searched from many starts. Ways differ modulo whole turns: an axis that may turn further than
 //! once does not make the same posture another way.
 //!
-//! **Guarantees.** Every way is within all ranges and reaches the target, by forward kinematics; no two are equal modulo
-//! turns. In closed form none is missing, away from singularities. A search may miss one.
+//! **Guarantees.** Every way is within the ranges of all that moves the effector, and reaches the target, by forward
+//! kinematics; what does not move the effector stays as it is. No two are equal modulo turns. In closed form none is
+//! missing, away from singularities. A search may miss one.
 //!
 //! **Degenerate inputs.** Where the target leaves a robot free to move, or an arm is singular, there is no end of
 //! ways; a few of them are given, and [`Ways::is_endless`] says so.
@@ -103,6 +104,7 @@ pub fn ways_to(
         config,
         ranges: mechanism.value_ranges(),
         turns: turning_values(mechanism),
+        moves: moving_values(mechanism, target.effector),
         workspace: RobotWorkspace::new(),
         found: Vec::new(),
     };
@@ -151,6 +153,8 @@ struct Search<'a> {
     config: &'a WaysConfig,
     ranges: Vec<ValueRange>,
     turns: Vec<bool>,
+    /// By value: whether the effector depends on it.
+    moves: Vec<bool>,
     workspace: RobotWorkspace,
     found: Vec<Vec<f64>>,
 }
@@ -186,10 +190,13 @@ impl Search<'_> {
                 };
                 [lower, upper.max(lower)]
             };
-            let ranges = self.ranges.iter().zip(self.values);
-            let start = ranges.map(|(range, &now)| {
+            let ranges = self.ranges.iter().zip(self.values).zip(&self.moves);
+            let start = ranges.map(|((range, &now), &moves)| {
                 let [lower, upper] = spread(range, now);
-                random.between(lower, upper)
+                match moves {
+                    true => random.between(lower, upper),
+                    false => now,
+                }
             });
             let start = start.collect();
             self.take(start, apart);
@@ -217,13 +224,15 @@ impl Search<'_> {
         }
     }
 
-    /// Turns every value by whole turns into its range, to the place nearest to where the robot stands. False where
-    /// that is not possible.
+    /// Turns every value that the effector depends on by whole turns into its range, to the place nearest to where
+    /// the robot stands. False where that is not possible.
     fn bring_within(&self, way: &mut [f64]) -> bool {
-        let ranges = self.ranges.iter().zip(&self.turns).zip(self.values);
+        let kinds = self.turns.iter().zip(&self.moves);
+        let ranges = self.ranges.iter().zip(kinds).zip(self.values);
         way.iter_mut()
             .zip(ranges)
-            .all(|(value, ((range, &turns), &now))| {
+            .filter(|(_, ((_, (_, moves)), _))| **moves)
+            .all(|(value, ((range, (&turns, _)), &now))| {
                 let mut near = *value;
                 if turns {
                     near = now + wrapped(*value - now);
@@ -287,6 +296,20 @@ fn turning_values(mechanism: &Mechanism) -> Vec<bool> {
         }
     }
     turns
+}
+
+/// For each value whether the effector depends on it: those of the joints on the way to the root, and those that these
+/// follow.
+fn moving_values(mechanism: &Mechanism, effector: JointId) -> Vec<bool> {
+    let mut moves = vec![false; mechanism.value_count()];
+    let above = mechanism.skeleton().ancestors(effector);
+    for joint in std::iter::once(effector).chain(above) {
+        match mechanism.followed_value(joint) {
+            Some(followed) => moves[followed.index] = true,
+            None => moves[mechanism.values_of_joint(joint)].fill(true),
+        }
+    }
+    moves
 }
 
 /// The arm that moves the effector, if it has a closed form: its values, and where its tip is to be.
